@@ -1,0 +1,3 @@
+#include "lobelia/app/app.h"
+
+int main(int argc, char** argv) { return lobelia::app::run(argc, argv); }

@@ -1,0 +1,27 @@
+// Reading and writing of images (OpenImageIO).
+#pragma once
+
+#include <string>
+
+#include "lobelia/base/error.h"
+#include "lobelia/film/film.h"
+#include "lobelia/scene/texture.h"
+
+namespace lobelia::io {
+
+// raw: values as stored; otherwise 8/16-bit images are decoded from sRGB (or from `gamma` when > 0).
+struct ImageOptions {
+  bool raw = false;
+  float gamma = 0;   // 0: sRGB, or linear for float formats
+};
+// Throws InputError (missing, corrupt, absurd size).
+Image readImage(const std::string& file, const ImageOptions& options, const Location& from = {});
+
+// Film with all layers of an EXR (or the RGB of any other format); alpha kept.
+Film readFilm(const std::string& file);
+// EXR, 32-bit float, layers named "layer.R"...; to a temporary name, then renamed. Throws
+// RuntimeError, leaving no file.
+void writeExr(const std::string& file, const Film& film);
+void writePng(const std::string& file, const std::vector<uint8_t>& rgb, int width, int height);
+
+}  // namespace lobelia::io

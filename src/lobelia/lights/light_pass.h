@@ -1,0 +1,31 @@
+// Particle pass: virtual lights from every emitter.
+#pragma once
+
+#include "lobelia/lights/virtual_lights.h"
+#include "lobelia/path/emitter_sampling.h"
+
+namespace lobelia {
+
+struct LightSettings {
+  size_t count = 4096;         // lights aimed at; particles are traced until about that many
+  int maxDepth = -1;           // of whole paths: lights reach depth maxDepth - 2
+  float specularLimit = 0.08f;
+  bool glossy = true;          // false: diffuse lights only (--lights vpl)
+  bool directAsLights = false; // --direct lights: emitters themselves become lights
+  size_t environmentLights = 0;  // directional lights for environments (--env-lights)
+};
+
+// Unbiased per particle: the expected sum of lights does not depend on `count`. Same seed, same
+// lights, any number of threads.
+VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
+                         const LightSettings& settings, Context& context);
+
+// Directional lights that stand for an environment: structured importance sampling (Agarwal et al.
+// 2003): strata of about equal energy x sqrt(solid angle), each light the energy of its stratum.
+std::vector<DirectionalLight> environmentLights(const Scene& scene, size_t count, uint64_t seed);
+
+// Whole or not at all; refuses another scene's lights, wrong versions and damaged files (InputError).
+void saveLights(const std::string& file, const VirtualLights& lights);
+VirtualLights loadLights(const std::string& file, uint64_t sceneHash);
+
+}  // namespace lobelia

@@ -1,0 +1,60 @@
+// Sampling of emitters: for next-event estimation (a direction towards light) and for particles
+// (a ray of light).
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "lobelia/base/sampling.h"
+#include "lobelia/trace/tracer.h"
+
+namespace lobelia {
+
+struct EmitterDirection {   // light that may arrive at a point
+  Vec3f wi;                 // towards the emitter
+  float distance = 0;       // infinite (3e38) for environments and directional emitters
+  Vec3f target;             // end of the shadow ray (offset from the emitter's surface); finite only
+  Rgb weight;               // radiance / pdf, or intensity / (d^2 pmf): multiply by f |cos|
+  float pdf = 0;            // solid angle, selection included; 0 for delta
+  bool delta = false;
+  uint32_t emitter = 0;
+};
+
+struct EmittedRay {         // a particle
+  Ray ray;                  // offset from its surface
+  Rgb power;                // flux of the particle: Le |cos| / pdf
+  Vec3f ng;                 // normal of the emitting surface; direction for the others
+  uint32_t emitter = 0;
+  bool infinite = false;    // environment and directional emitters
+};
+
+// Chooses emitters (and triangles of area emitters) in proportion to power through alias tables;
+// area emitters seen from a point through a tree over their triangles, so that 10^6 emissive
+// triangles cost O(log n) and near ones are preferred (Conty Estevez and Kulla 2018). Spheres are
+// sampled by the cone they subtend; environments by an alias/2D table over solid angle.
+class EmitterSampler {
+ public:
+  EmitterSampler(const Scene& scene, Bounds3f sceneBounds);
+  ~EmitterSampler();
+
+  bool empty() const;
+  std::optional<EmitterDirection> sampleDirection(Vec3f p, Vec3f n, Vec3f u) const;
+  // Density with which sampleDirection(p, n) returns the direction of this hit on an emitter.
+  float pdfHit(Vec3f p, Vec3f n, const SurfacePoint& hit, Vec3f wi) const;
+  float pdfEscaped(Vec3f p, Vec3f n, Vec3f wi) const;
+  // Emitted radiance of a hit towards wo; 0 from the back.
+  Rgb emitted(const SurfacePoint& hit, Vec3f wo) const;
+  // Radiance from environments along an escaping ray of direction d.
+  Rgb escaped(Vec3f d) const;
+
+  std::optional<EmittedRay> sampleRay(float uSelect, Vec2f uPosition, Vec2f uDirection) const;
+  double power() const;     // total flux (luminance) of what sampleRay draws from
+
+  const Scene& scene() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lobelia

@@ -1,0 +1,39 @@
+// Reference path tracer: next-event estimation and BSDF sampling combined by the power heuristic.
+#pragma once
+
+#include "lobelia/film/film.h"
+#include "lobelia/path/emitter_sampling.h"
+
+namespace lobelia {
+
+enum class Component : uint8_t { all, direct, indirect };
+
+struct PixelSet {           // which pixels of the data window are computed; empty: all
+  std::vector<uint32_t> pixels;   // sorted indices y * width + x into the data window
+};
+// N pixels spread over the data window by the seed (blue-noise-like: one per stratum).
+PixelSet spreadPixels(int width, int height, size_t count, uint64_t seed);
+
+struct PathSettings {
+  int spp = 64;
+  int maxDepth = -1;              // Mitsuba's count; -1 unlimited
+  int rouletteDepth = 5;
+  float specularLimit = 0.08f;
+  Component component = Component::all;
+  double timeLimit = 0;           // seconds; 0: none. Samples are added in passes over the image.
+  bool hideEmitters = false;
+  PixelSet pixels;
+};
+
+// Adds the picture and the layers "direct", "indirect", "albedo", "normal", "depth", "variance"
+// (variance of the mean) that film already has to film. Counts "path_rays", "shadow_rays",
+// "nonfinite" in the context's statistics. Same seed, same pixels for any number of threads.
+void renderPath(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+                const PathSettings& settings, Film& film, Context& context);
+
+// Light tracing: particles connected to the camera. Finds caustics that a path tracer cannot, but
+// nothing seen through specular surfaces. spp: particles per pixel.
+void renderLight(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+                 const PathSettings& settings, Film& film, Context& context);
+
+}  // namespace lobelia

@@ -1,0 +1,49 @@
+// Eye pass: where the picture needs light (docs/architecture.md, "Receivers").
+//
+// An eye path runs through sharp lobes until it meets rough ones: that point is a receiver. From a
+// receiver one BSDF sample of the rough lobes goes on only if the next surface has sharp lobes; it
+// follows them to an emitter (a specular connection) or to a further receiver of the same pixel.
+#pragma once
+
+#include "lobelia/path/path_tracer.h"
+
+namespace lobelia {
+
+// A point that gathers. Its rough lobes are lobes[firstLobe, firstLobe + lobeCount).
+struct ReceiverPoint {
+  Vec3f p;
+  Vec3f ng;            // geometric normal, outside
+  Frame frame;         // shading frame
+  Vec3f wo;            // towards the eye
+  Rgb weight;          // factor to the pixel's value: throughput / samples
+  float error = 0;     // position error for offsetOrigin
+  uint32_t pixel = 0;  // index into the data window
+  uint32_t firstLobe = 0;
+  uint8_t lobeCount = 0;
+  uint8_t depth = 1;   // edges from the camera (Mitsuba's depth of this vertex)
+  bool primary = true; // first receiver of its eye path: its emitter light is "direct"
+};
+
+struct Receivers {
+  std::vector<ReceiverPoint> points;   // in tile order: neighbours in the array are near on screen
+  std::vector<Lobe> lobes;
+};
+
+struct EyeSettings {
+  int sample = 0;                // index of the sample of each pixel
+  int sampleCount = 1;           // total (for the weight)
+  int maxDepth = -1;
+  float specularLimit = 0.08f;
+  int directSamples = 1;         // emitter samples per receiver for direct light; 0: none (--direct lights)
+  bool hideEmitters = false;
+  PixelSet pixels;
+};
+
+// One sample of every pixel of the rows [y0, y1) of the data window (or of the chosen pixels in
+// them). Adds emission, direct light (next-event estimation with MIS) and specular connections to
+// film's layers "direct" and "indirect" (and "specular" when present), and returns the receivers
+// whose indirect light remains to be gathered.
+Receivers traceReceivers(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+                         const EyeSettings& settings, int y0, int y1, Film& film, Context& context);
+
+}  // namespace lobelia

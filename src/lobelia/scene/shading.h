@@ -1,0 +1,46 @@
+// From a hit to what shading needs: position, normals, uv, frame, and the Bsdf value.
+#pragma once
+
+#include "lobelia/bsdf/lobe.h"
+#include "lobelia/scene/scene.h"
+
+namespace lobelia {
+
+// What an acceleration structure returns. b1, b2: barycentrics of vertices 1 and 2.
+struct Hit {
+  float t = 0;
+  float b1 = 0, b2 = 0;
+  uint32_t instance = 0xffffffffu;
+  uint32_t triangle = 0;
+};
+
+struct SurfacePoint {
+  Vec3f p;
+  Vec3f ng;          // unit, outside (orientation of the mesh after flipNormals)
+  Frame frame;       // shading frame: n interpolated, s along dp/du
+  Vec3f dpdu, dpdv;
+  Vec3f dndu, dndv;  // derivatives of the shading normal (bump maps)
+  Vec2f uv;
+  float t = 0;
+  uint32_t instance = 0;
+  MaterialHandle material;
+  EmitterHandle emitter;
+  TextureContext texture;
+  float error = 0;   // absolute position error to keep away from the surface by
+};
+
+SurfacePoint surfacePoint(const Scene& scene, const Hit& hit);
+// Material to Bsdf at a point seen from wo; lobes classified by the specular limit (roughness).
+// Opacity is not a lobe: rays pass masks stochastically (trace/tracer.h).
+// light: the side of emission is not considered here.
+Bsdf makeBsdf(const Scene& scene, const SurfacePoint& at, Vec3f wo, float specularLimit);
+// Probability that a ray stops at this hit: the mask's opacity; 0 for `null`.
+float opacity(const Scene& scene, MaterialHandle material, const TextureContext& at);
+bool hasOpacity(const Scene& scene, MaterialHandle material);  // is it ever below one?
+
+// Origin moved off the surface to the side of `direction`, far enough not to hit it again and no
+// farther (about 1e-6 of the coordinates' size; at.error).
+Vec3f offsetOrigin(const SurfacePoint& at, Vec3f direction);
+Vec3f offsetOrigin(Vec3f p, Vec3f ng, float error, Vec3f direction);
+
+}  // namespace lobelia

@@ -1,0 +1,50 @@
+// Ray queries over a scene (Embree 3.13 or 4 behind it).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "lobelia/scene/shading.h"
+
+namespace lobelia {
+
+// Up to 16 shadow rays as structure of arrays, ready for Embree's packets. Fill lanes [0, 16);
+// active[i] = -1 for lanes to trace, 0 for others.
+struct alignas(64) ShadowPacket {
+  static constexpr int kSize = 16;
+  float ox[kSize], oy[kSize], oz[kSize], tMin[kSize];
+  float dx[kSize], dy[kSize], dz[kSize], tMax[kSize];
+  int32_t active[kSize];
+};
+
+class Tracer {
+ public:
+  // Keeps a reference to the scene, which must not change. Throws InputError for a scene too large
+  // for 32-bit ids; cancels with the context; reports Embree's memory in statistics.
+  Tracer(const Scene& scene, Context& context);
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  // Nearest hit in (tMin, tMax]. Masks (opacity < 1) are passed stochastically by a hash of the
+  // ray and the triangle: same ray, same answer.
+  std::optional<Hit> intersect(const Ray& ray) const;
+  bool occluded(const Ray& ray) const;
+  // Bit i of the result is set when lane i is active and NOT blocked. coherent: the rays share an
+  // end or lie close together (Embree's COHERENT flag; wrong use only costs speed).
+  uint32_t visible(ShadowPacket& packet, bool coherent) const;
+  // Is there nothing between the two points? Both already offset from their surfaces.
+  bool visible(Vec3f a, Vec3f b) const;
+
+  const Scene& scene() const { return scene_; }
+  Bounds3f bounds() const { return bounds_; }
+
+ private:
+  struct Impl;
+  const Scene& scene_;
+  Bounds3f bounds_;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lobelia
