@@ -1,0 +1,48 @@
+// Parallel loops over oneTBB.
+#include "lobelia/base/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace lobelia {
+
+void parallelRanges(size_t count, size_t grain, const std::function<void(size_t, size_t)>& f) {
+  grain = std::max<size_t>(grain, 1);
+  const size_t blocks = count / grain + (count % grain != 0 ? 1 : 0);
+  if (blocks == 0) return;
+  const auto loop = [&] {
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, blocks, 1),
+                      [&](const tbb::blocked_range<size_t>& range) {
+                        for (size_t b = range.begin(); b != range.end(); ++b) {
+                          f(b * grain, std::min(count, (b + 1) * grain));
+                        }
+                      });
+  };
+  // The default arena has as many slots as the machine has cores; a limit above that (--threads 5
+  // on two cores) needs an arena of its own.
+  if (threadCount() > tbb::this_task_arena::max_concurrency()) {
+    tbb::task_arena(threadCount()).execute(loop);
+  } else {
+    loop();
+  }
+}
+
+int threadCount() {
+  return static_cast<int>(
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+ThreadLimit::ThreadLimit(int threads) : control_(nullptr) {
+  if (threads > 0) {
+    control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                       static_cast<size_t>(threads));
+  }
+}
+
+ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+
+}  // namespace lobelia
