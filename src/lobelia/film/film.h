@@ -19,10 +19,10 @@ struct Layer {
 // An image in memory: full size, data window, layers. The layer "" is the picture (RGB); others
 // are AOVs ("albedo", "normal", "depth", "direct", "indirect", "specular", "variance").
 struct Film {
-  int fullWidth = 0, fullHeight = 0;     // display window
+  int fullWidth = 0, fullHeight = 0;          // display window
   int x0 = 0, y0 = 0, width = 0, height = 0;  // data window
   std::map<std::string, Layer> layers;
-  std::vector<float> alpha;              // empty: opaque; else 1 where computed (--pixels)
+  std::vector<float> alpha;  // empty: opaque; else 1 where computed (--pixels)
   std::map<std::string, std::string> metadata;
 
   Layer& addLayer(const std::string& name, int channels = 3);
@@ -33,14 +33,23 @@ struct Film {
 // Number of non-finite values in the picture.
 uint64_t countNonFinite(const Film& film);
 
-// Reinhard et al. 2002, global operator: L scaled by key / log-average luminance, then
-// L (1 + L/white^2) / (1 + L). exposure in stops; returns sRGB-encoded 8-bit RGB.
+// Reinhard et al. 2002, global operator: luminance scaled by key / log-average, then
+// L (1 + L / white^2) / (1 + L).
 struct ToneMapping {
-  float exposure = 0;
+  float exposure = 0;  // stops, on top of the automatic scale
   float key = 0.18f;
-  bool enabled = true;    // false: exposure and clamp only
 };
-std::vector<uint8_t> toneMap(const Film& film, const ToneMapping& settings, const std::string& layer = "");
+// The operator measured on one picture, so that others (a difference's two sides, an animation's
+// frames) can be shown with the same one.
+struct ToneCurve {
+  float scale = 1;
+  float white = 1;
+};
+ToneCurve measureToneCurve(const Film& film, const ToneMapping& settings,
+                           const std::string& layer = "");
+// sRGB-encoded 8-bit RGB of the data window. Non-finite pixels are magenta.
+std::vector<uint8_t> toneMap(const Film& film, const ToneCurve& curve,
+                             const std::string& layer = "");
 float encodeSrgb(float linear);
 float decodeSrgb(float encoded);
 
