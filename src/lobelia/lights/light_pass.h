@@ -7,24 +7,32 @@
 namespace lobelia {
 
 struct LightSettings {
-  size_t count = 4096;         // lights aimed at; particles are traced until about that many
-  int maxDepth = -1;           // of whole paths: lights reach depth maxDepth - 2
+  size_t count = 4096;  // lights aimed at; particles are traced until about that many
+  int maxDepth = -1;    // of whole paths: lights reach depth maxDepth - 2
   float specularLimit = 0.08f;
-  bool glossy = true;          // false: diffuse lights only (--lights vpl)
-  bool directAsLights = false; // --direct lights: emitters themselves become lights
-  size_t environmentLights = 0;  // directional lights for environments (--env-lights)
+  bool glossy = true;           // false: diffuse lights only (--lights vpl)
+  bool directAsLights = false;  // --direct lights: emitters themselves become lights
+  // Directional lights for environments (--env-lights), with directAsLights only: without it their
+  // direct light is sampled at the receivers. 0: as many as give a good image.
+  size_t environmentLights = 0;
+  int gaussiansPerLobe = 9;    // of the expansion of a BSDF (bsdf/gaussians.h); 1: the paper's form
+  bool everyGaussian = false;  // true: all of them become lights; false: one is drawn per vertex
 };
 
 // Unbiased per particle: the expected sum of lights does not depend on `count`. Same seed, same
-// lights, any number of threads.
+// lights, any number of threads. Counts "light_particles", "path_rays", "paths_cut",
+// "lights_dropped" (no power) and "nonfinite"; books seconds to "lights".
 VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
                          const LightSettings& settings, Context& context);
 
 // Directional lights that stand for an environment: structured importance sampling (Agarwal et al.
-// 2003): strata of about equal energy x sqrt(solid angle), each light the energy of its stratum.
+// 2003): strata of about equal energy x (solid angle)^(1/4), each light the energy of its stratum.
+std::vector<DirectionalLight> environmentLights(const EmitterSampler& emitters, size_t count,
+                                                uint64_t seed);
 std::vector<DirectionalLight> environmentLights(const Scene& scene, size_t count, uint64_t seed);
 
-// Whole or not at all; refuses another scene's lights, wrong versions and damaged files (InputError).
+// Whole or not at all; refuses another scene's lights, wrong versions and damaged files
+// (InputError).
 void saveLights(const std::string& file, const VirtualLights& lights);
 VirtualLights loadLights(const std::string& file, uint64_t sceneHash);
 

@@ -25,10 +25,11 @@ struct DiffuseLight {
   Vec3f p;
   Rgb intensity;
   uint32_t normal;
-  uint32_t tag;       // depth in the low 8 bits, group above
+  uint32_t tag;  // depth in the low 8 bits, group above
 };
 static_assert(sizeof(DiffuseLight) == 32);
-// Spherical-Gaussian lobe clipped at its surface: intensity exp(sharpness (axis.w - 1)) for n.w > 0.
+// Spherical-Gaussian lobe clipped at its surface: intensity exp(sharpness (axis.w - 1)) for n.w >
+// 0.
 struct GlossyLight {
   Vec3f p;
   Vec3f n;
@@ -41,7 +42,7 @@ static_assert(sizeof(GlossyLight) == 52);
 // Lights of one class are sorted by depth: depthEnds[d] is the number of lights with depth <= d,
 // where depth is the number of edges between the emitter and the light (0: on the emitter itself).
 struct VirtualLights {
-  std::string model;   // "vpl", "glossy"
+  std::string model;  // "vpl", "glossy"
   std::vector<OmniLight> omni;
   std::vector<DirectionalLight> directional;
   std::vector<DiffuseLight> diffuse;
@@ -49,7 +50,7 @@ struct VirtualLights {
   std::vector<uint32_t> diffuseDepthEnds, glossyDepthEnds;
   uint64_t sceneHash = 0;
   uint64_t seed = 0;
-  uint64_t particles = 0;      // emitted
+  uint64_t particles = 0;  // emitted
   size_t size() const { return omni.size() + directional.size() + diffuse.size() + glossy.size(); }
 };
 

@@ -1,0 +1,161 @@
+// The light pass: how many particles, in parallel, and their lights in one deterministic order.
+//
+// The number of particles is decided before they are traced, by a pilot with random numbers of its
+// own. Tracing until enough lights are there would be biased: the last particle would be one that
+// left lights, and the mean over particles would depend on when one stopped.
+#include "lobelia/lights/light_pass.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <utility>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/lights/particle_walk.h"
+
+namespace lobelia {
+namespace {
+
+constexpr uint64_t kPilotStream = 0x70696c6f74ull, kStream = 0x6c6967687473ull;
+constexpr size_t kBatchSize = 512;
+constexpr uint64_t kMaxParticles = 0xffffffffull;  // Sampler's indices
+constexpr size_t kDefaultEnvironmentLights = 1024;
+
+std::vector<ParticleBatch> traceParticles(const ParticleWalk& walk, uint64_t count,
+                                          Context& context, bool report) {
+  std::vector<ParticleBatch> batches((count + kBatchSize - 1) / kBatchSize);
+  std::atomic<size_t> done{0};
+  parallelFor(batches.size(), 1, [&](size_t b) {
+    if (context.cancelled()) return;
+    const uint64_t end = std::min<uint64_t>(count, (b + 1) * kBatchSize);
+    for (uint64_t i = b * kBatchSize; i < end; ++i)
+      walk.trace(static_cast<uint32_t>(i), &batches[b]);
+    const size_t finished = done.fetch_add(1, std::memory_order_relaxed) + 1;
+    if (report && finished % 64 == 0)
+      context.progress("lights",
+                       static_cast<double>(finished) / static_cast<double>(batches.size()));
+  });
+  return batches;
+}
+
+size_t lightCount(const std::vector<ParticleBatch>& batches) {
+  size_t n = 0;
+  for (const ParticleBatch& b : batches) n += b.diffuse.size() + b.glossy.size();
+  return n;
+}
+
+// Particles that leave about settings.count lights. A pilot that finds few lights is repeated with
+// more particles, up to a limit: a scene may leave none at all.
+uint64_t chooseParticleCount(const Tracer& tracer, const EmitterSampler& emitters,
+                             const LightSettings& settings, Context& context) {
+  constexpr uint64_t kMaxPilot = 1u << 18;
+  constexpr size_t kEnough = 256;
+  const ParticleWalk walk(tracer, emitters, settings, context.seed, kPilotStream, 1.f);
+  uint64_t pilot = std::clamp<uint64_t>(settings.count / 16, 1024, 16384);
+  for (;; pilot *= 4) {
+    const size_t lights = lightCount(traceParticles(walk, pilot, context, false));
+    if (lights < kEnough && pilot < kMaxPilot && !context.cancelled()) continue;
+    if (lights == 0) return std::min<uint64_t>(settings.count, kMaxParticles);
+    const double particles = static_cast<double>(settings.count) * static_cast<double>(pilot) /
+                             static_cast<double>(lights);
+    return static_cast<uint64_t>(
+        std::clamp(std::round(particles), 1.0, static_cast<double>(kMaxParticles)));
+  }
+}
+
+// Counting sort by depth over the batches: stable, and the same whatever thread made which batch.
+template <class Light, class Lights, class Depth>
+std::vector<uint32_t> sortByDepth(const std::vector<ParticleBatch>& batches, const Lights& lightsOf,
+                                  const Depth& depthOf, std::vector<Light>* sorted) {
+  std::vector<std::vector<size_t>> starts(batches.size());  // by batch and depth
+  size_t depthCount = 0;
+  for (size_t b = 0; b < batches.size(); ++b) {
+    for (size_t i = 0; i < lightsOf(batches[b]).size(); ++i) {
+      const size_t depth = depthOf(batches[b], i);
+      if (starts[b].size() <= depth) starts[b].resize(depth + 1);
+      ++starts[b][depth];
+    }
+    depthCount = std::max(depthCount, starts[b].size());
+  }
+  std::vector<uint32_t> ends;
+  size_t next = 0;
+  for (size_t depth = 0; depth < depthCount; ++depth) {
+    for (auto& start : starts)
+      if (depth < start.size()) next += std::exchange(start[depth], next);
+    ends.push_back(static_cast<uint32_t>(next));
+  }
+  sorted->resize(next);
+  parallelFor(batches.size(), 16, [&](size_t b) {
+    for (size_t i = 0; i < lightsOf(batches[b]).size(); ++i)
+      (*sorted)[starts[b][depthOf(batches[b], i)]++] = lightsOf(batches[b])[i];
+  });
+  return ends;
+}
+
+void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, Context& context) {
+  lights->diffuseDepthEnds = sortByDepth(
+      batches, [](const ParticleBatch& b) -> auto& { return b.diffuse; },
+      [](const ParticleBatch& b, size_t i) -> size_t { return b.diffuse[i].tag & 0xff; },
+      &lights->diffuse);
+  lights->glossyDepthEnds = sortByDepth(
+      batches, [](const ParticleBatch& b) -> auto& { return b.glossy; },
+      [](const ParticleBatch& b, size_t i) -> size_t { return b.glossyDepth[i]; }, &lights->glossy);
+  ParticleBatch total;
+  for (const ParticleBatch& b : batches) {
+    total.rays += b.rays, total.cut += b.cut;
+    total.dropped += b.dropped, total.nonFinite += b.nonFinite;
+  }
+  context.statistics.addCount("path_rays", total.rays);
+  context.statistics.addCount("paths_cut", total.cut);
+  context.statistics.addCount("lights_dropped", total.dropped);
+  context.statistics.addCount("nonfinite", total.nonFinite);
+}
+
+// Emitters without an area, as lights of depth 0 (area emitters: ParticleWalk::leaveOnEmitter).
+void addEmitters(const EmitterSampler& emitters, const LightSettings& settings, uint64_t seed,
+                 VirtualLights* lights) {
+  const Scene& scene = emitters.scene();
+  for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
+    const Emitter& e = scene.emitters[i];
+    const Rgb value = e.radiance.value * e.scale;
+    const Vec3f origin = e.toWorld.point(Vec3f(0.f));
+    if (e.type == EmitterType::point) lights->omni.push_back({origin, value, 0xffffffffu});
+    if (e.type == EmitterType::spot || e.type == EmitterType::projector)
+      lights->omni.push_back({origin, value, i});
+    if (e.type == EmitterType::directional)
+      lights->directional.push_back({-normalize(e.direction), value});
+  }
+  const size_t count =
+      settings.environmentLights > 0 ? settings.environmentLights : kDefaultEnvironmentLights;
+  const auto environment = environmentLights(emitters, count, seed);
+  lights->directional.insert(lights->directional.end(), environment.begin(), environment.end());
+}
+
+}  // namespace
+
+VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
+                         const LightSettings& settings, Context& context) {
+  const StageTimer timer(context, "lights");
+  VirtualLights lights;
+  lights.model = settings.glossy ? "glossy" : "vpl";
+  lights.sceneHash = hash(emitters.scene());
+  lights.seed = context.seed;
+  if (settings.directAsLights) addEmitters(emitters, settings, context.seed, &lights);
+  const int lastDepth = settings.maxDepth < 0 ? kMaxLightDepth : settings.maxDepth - 2;
+  if (emitters.empty() || settings.count == 0 || lastDepth < (settings.directAsLights ? 0 : 1))
+    return lights;
+
+  const uint64_t particles = chooseParticleCount(tracer, emitters, settings, context);
+  const float scale = static_cast<float>(1.0 / static_cast<double>(particles));
+  const ParticleWalk walk(tracer, emitters, settings, context.seed, kStream, scale);
+  collect(traceParticles(walk, particles, context, true), &lights, context);
+  lights.particles = particles;
+  context.statistics.addCount("light_particles", particles);
+  if (lights.diffuse.empty() && lights.glossy.empty())
+    context.warning("no particle left a virtual light: there is no indirect light to gather");
+  context.debug(fmt::format("{} particles left {} diffuse and {} glossy lights", particles,
+                            lights.diffuse.size(), lights.glossy.size()));
+  return lights;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,157 @@
+// Particles and the lights they leave [P000 section 3; Keller 1997, "Instant Radiosity"].
+//
+// A particle walks by all lobes and leaves lights where rough lobes are: a light stands for what
+// the rough lobes scatter of its power. What the sharp lobes scatter is carried on by the particle
+// alone; receivers reach it by specular connections (path/receivers.h).
+//
+// Exactness. Seen from the eye, a surface sends f |cos(wi, ns)| of arriving radiance on, and shows
+// its geometric area. So the intensity of the light that stands for power arriving from wi is
+//   I(w) = power f(w, wi) |cos(wi, ns)| / |cos(wi, ng)| |cos(w, ng)|        [Veach97 eq. 5.18]
+// which for a diffuse lobe is a cosine lobe around the geometric normal: exact. A Gaussian already
+// holds |cos(w, ns)|; its intensity is corrected by the ratio at its axis, limited to a factor
+// of 2 either way, since the axis of a broad lobe may lie at the horizon.
+#include "lobelia/lights/particle_walk.h"
+
+#include "lobelia/lobes/spherical_gaussian.h"
+
+namespace lobelia {
+namespace {
+
+int deepestLight(const LightSettings& settings) {
+  return settings.maxDepth < 0 ? kMaxLightDepth : std::min(settings.maxDepth - 2, kMaxLightDepth);
+}
+
+// Luminance of what a lobe sends out above its horizon, per unit of arriving power.
+float energyOf(const GaussianLobe& lobe) {
+  return luminance(lobe.amplitude) *
+         lobes::hemisphereIntegral(dot(lobe.axis, lobe.normal), lobe.sharpness);
+}
+
+}  // namespace
+
+ParticleWalk::ParticleWalk(const Tracer& tracer, const EmitterSampler& emitters,
+                           const LightSettings& settings, uint64_t seed, uint64_t stream,
+                           float scale)
+    : tracer_(tracer),
+      emitters_(emitters),
+      settings_(settings),
+      seed_(seed),
+      stream_(stream),
+      scale_(scale),
+      lastDepth_(deepestLight(settings)) {}
+
+void ParticleWalk::trace(uint32_t particle, ParticleBatch* out) const {
+  Sampler random(seed_, stream_, particle);
+  const float uSelect = random.next1D();
+  const Vec2f uPosition = random.next2D(), uDirection = random.next2D();
+  const auto emitted = emitters_.sampleRay(uSelect, uPosition, uDirection);
+  if (!emitted) return;
+  Rgb power = emitted->power * scale_;
+  if (settings_.directAsLights) leaveOnEmitter(*emitted, power, out);
+  const float emittedPower = maxComponent(power);
+  if (!isFinite(power)) ++out->nonFinite;
+  if (!(emittedPower > 0) || !isFinite(power)) return;
+
+  Ray ray = emitted->ray;
+  for (int depth = 1; depth <= lastDepth_; ++depth) {
+    ++out->rays;
+    const auto hit = tracer_.intersect(ray);
+    if (!hit) return;
+    const SurfacePoint at = surfacePoint(emitters_.scene(), *hit);
+    const Vec3f wi = -ray.d;
+    const Bsdf bsdf = makeBsdf(emitters_.scene(), at, wi, settings_.specularLimit);
+    const float uGaussian = random.next1D();
+    if (hasLobes(bsdf, LobeSet::rough)) leaveLights(at, bsdf, wi, power, depth, uGaussian, out);
+
+    const float uLobe = random.next1D();
+    const Vec2f u = random.next2D();
+    const float uRoulette = random.next1D();
+    if (depth == lastDepth_) {
+      if (settings_.maxDepth < 0) ++out->cut;
+      return;
+    }
+    const auto scattered = sample(bsdf, wi, uLobe, u, LobeSet::all, Transport::importance);
+    if (!scattered) return;
+    power *= scattered->weight;
+    if (!isFinite(power)) {
+      ++out->nonFinite;
+      return;
+    }
+    // Survivors carry about the power that they were emitted with: lights of equal power give the
+    // least noise for their number.
+    const float survival = std::min(1.f, maxComponent(power) / emittedPower);
+    if (!(uRoulette < survival)) return;
+    power /= survival;
+    ray = {offsetOrigin(at, scattered->wi), scattered->wi};
+  }
+}
+
+void ParticleWalk::leaveOnEmitter(const EmittedRay& emitted, Rgb power, ParticleBatch* out) const {
+  if (emitters_.scene().emitters[emitted.emitter].type != EmitterType::area) return;
+  addDiffuse(emitted.ray.o, emitted.ng, power * kInvPi, 0, out);
+}
+
+void ParticleWalk::leaveLights(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power,
+                               int depth, float u, ParticleBatch* out) const {
+  const float cosShading = dot(wi, bsdf.frame.n), cosGeometric = dot(wi, bsdf.ng);
+  // Light that arrives from one side by the shading normal and from the other in truth.
+  if (!(cosShading * cosGeometric > 0)) return;
+  const Rgb arriving = power * (cosShading / cosGeometric);
+  const LobeExpansion lobes = expand(bsdf, wi, settings_.gaussiansPerLobe);
+  const Vec3f side = cosGeometric > 0 ? bsdf.ng : -bsdf.ng;
+  const size_t before = out->diffuse.size() + out->glossy.size();
+  if (maxComponent(lobes.diffuse) > 0)
+    addDiffuse(offsetOrigin(at, side), side, arriving * lobes.diffuse * kInvPi, depth, out);
+  if (maxComponent(lobes.diffuseTransmitted) > 0)
+    addDiffuse(offsetOrigin(at, -side), -side, arriving * lobes.diffuseTransmitted * kInvPi, depth,
+               out);
+  if (settings_.glossy) leaveGlossy(at, bsdf, lobes, arriving, depth, u, out);
+  if (out->diffuse.size() + out->glossy.size() == before) ++out->dropped;
+}
+
+void ParticleWalk::leaveGlossy(const SurfacePoint& at, const Bsdf& bsdf, const LobeExpansion& lobes,
+                               Rgb power, int depth, float u, ParticleBatch* out) const {
+  if (settings_.everyGaussian) {
+    for (int i = 0; i < lobes.count; ++i)
+      addGlossy(at, bsdf, lobes.gaussians[static_cast<size_t>(i)], power, depth, out);
+    return;
+  }
+  float energies[LobeExpansion::kMaxGaussians], total = 0;
+  for (int i = 0; i < lobes.count; ++i)
+    total += energies[i] = std::max(0.f, energyOf(lobes.gaussians[static_cast<size_t>(i)]));
+  if (!(total > 0)) return;
+  float left = u * total;
+  int chosen = 0;
+  while (chosen < lobes.count - 1 && (left >= energies[chosen] || energies[chosen] <= 0))
+    left -= energies[chosen++];
+  while (energies[chosen] <= 0) --chosen;  // rounding may run past the last lobe with energy
+  addGlossy(at, bsdf, lobes.gaussians[static_cast<size_t>(chosen)],
+            power * (total / energies[chosen]), depth, out);
+}
+
+void ParticleWalk::addDiffuse(Vec3f p, Vec3f n, Rgb intensity, int depth,
+                              ParticleBatch* out) const {
+  if (!isFinite(p) || !isFinite(n) || !isFinite(intensity)) {
+    ++out->nonFinite;
+  } else if (maxComponent(intensity) > 0) {
+    out->diffuse.push_back({p, intensity, encodeOctahedral(n), static_cast<uint32_t>(depth)});
+  }
+}
+
+void ParticleWalk::addGlossy(const SurfacePoint& at, const Bsdf& bsdf, const GaussianLobe& lobe,
+                             Rgb power, int depth, ParticleBatch* out) const {
+  const Vec3f n = dot(bsdf.ng, lobe.normal) > 0 ? bsdf.ng : -bsdf.ng;
+  const float ratio =
+      std::abs(dot(lobe.axis, n)) / std::max(1e-6f, std::abs(dot(lobe.axis, lobe.normal)));
+  const Rgb intensity = power * lobe.amplitude * std::clamp(ratio, 0.5f, 2.f);
+  const GlossyLight light{offsetOrigin(at, n), n, lobe.axis, intensity, lobe.sharpness};
+  if (!isFinite(light.p) || !isFinite(light.axis) || !isFinite(intensity) ||
+      !(lobe.sharpness >= 0) || !std::isfinite(lobe.sharpness)) {
+    ++out->nonFinite;
+  } else if (maxComponent(intensity) > 0) {
+    out->glossy.push_back(light);
+    out->glossyDepth.push_back(static_cast<uint8_t>(depth));
+  }
+}
+
+}  // namespace lobelia

@@ -1,0 +1,51 @@
+// One particle's way through the scene and the virtual lights that it leaves (inner loop of the
+// light pass).
+#pragma once
+
+#include "lobelia/base/random.h"
+#include "lobelia/bsdf/bsdf.h"
+#include "lobelia/bsdf/gaussians.h"
+#include "lobelia/lights/light_pass.h"
+
+namespace lobelia {
+
+// No path is longer, whatever the settings: a record holds its depth in 8 bits.
+inline constexpr int kMaxLightDepth = 250;
+
+// What a range of particles leaves, in the order of the particles.
+struct ParticleBatch {
+  std::vector<DiffuseLight> diffuse;
+  std::vector<GlossyLight> glossy;
+  std::vector<uint8_t> glossyDepth;  // parallel to glossy; diffuse lights carry theirs
+  uint64_t rays = 0, cut = 0, dropped = 0, nonFinite = 0;
+};
+
+class ParticleWalk {
+ public:
+  // stream: which of the seed's independent sets of particles; scale multiplies every power.
+  ParticleWalk(const Tracer& tracer, const EmitterSampler& emitters, const LightSettings& settings,
+               uint64_t seed, uint64_t stream, float scale);
+
+  void trace(uint32_t particle, ParticleBatch* out) const;
+  // Deepest light that the settings allow; < 1: none but those on emitters.
+  int lastDepth() const { return lastDepth_; }
+
+ private:
+  void leaveOnEmitter(const EmittedRay& emitted, Rgb power, ParticleBatch* out) const;
+  void leaveLights(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power, int depth,
+                   float u, ParticleBatch* out) const;
+  void leaveGlossy(const SurfacePoint& at, const Bsdf& bsdf, const LobeExpansion& lobes, Rgb power,
+                   int depth, float u, ParticleBatch* out) const;
+  void addDiffuse(Vec3f p, Vec3f n, Rgb intensity, int depth, ParticleBatch* out) const;
+  void addGlossy(const SurfacePoint& at, const Bsdf& bsdf, const GaussianLobe& lobe, Rgb power,
+                 int depth, ParticleBatch* out) const;
+
+  const Tracer& tracer_;
+  const EmitterSampler& emitters_;
+  const LightSettings& settings_;
+  uint64_t seed_, stream_;
+  float scale_;
+  int lastDepth_;
+};
+
+}  // namespace lobelia
