@@ -16,6 +16,9 @@ struct ReadSettings {
 
 // Any supported scene by its extension; throws InputError. Warnings are in Scene::findings.
 Scene readScene(const std::string& file, const ReadSettings& settings, Context& context);
+// Adds ReadSettings::environment (when given) as the scene's environment, in place of one it has.
+// readScene() does this; built-in scenes need it too.
+void applyEnvironment(Scene& scene, const ReadSettings& settings);
 Scene readMitsuba(const std::string& file, const ReadSettings& settings, Context& context);
 // scene.xml plus meshes/ and textures/ in a folder; reads back identically.
 void writeMitsuba(const std::string& folder, const Scene& scene);

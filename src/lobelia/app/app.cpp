@@ -1,0 +1,118 @@
+#include "lobelia/app/app.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <new>
+
+#include "lobelia/app/commands.h"
+#include "lobelia/app/methods.h"
+#include "lobelia/app/render.h"
+#include "lobelia/io/scene_io.h"
+#include "lobelia/version.h"
+
+namespace lobelia::app {
+namespace {
+
+std::string quoted(int argc, char** argv) {
+  std::string out;
+  for (int i = 0; i < argc; ++i) out += (i > 0 ? " " : "") + std::string(argv[i]);
+  return out;
+}
+
+// The command line's grammar and what it was told.
+struct CommandLine {
+  CLI::App app{"Lobelia: glossy global illumination with virtual lights", "lobelia"};
+  GlobalOptions global;
+  RenderOptions render;
+  CompareOptions compare;
+  InfoOptions info;
+  ConvertOptions scene, convert;
+  CLI::App *renderCommand, *compareCommand, *infoCommand, *methodsCommand, *sceneCommand,
+      *convertCommand;
+
+  CommandLine() {
+    app.set_version_flag("--version", std::string("lobelia ") + kVersion);
+    app.require_subcommand(1);
+    app.get_formatter()->column_width(32);
+    renderCommand = app.add_subcommand("render", "Render a scene to a picture");
+    addRenderOptions(*renderCommand, render);
+    compareCommand = app.add_subcommand("compare", "Error of an image against a reference");
+    compareCommand->add_option("image", compare.image)->required();
+    compareCommand->add_option("reference", compare.reference)->required();
+    compareCommand->add_option(
+        "--reference2", compare.reference2,
+        "Independent second reference: removes the references' noise from l2");
+    compareCommand->add_option("--mask", compare.mask,
+                               "Compare only where this image is above 0.5");
+    compareCommand->add_option("--diff", compare.diff, "Write a difference picture (FLIP) as PNG");
+    compareCommand->add_flag("--json", compare.json, "Print JSON");
+    infoCommand = app.add_subcommand("info", "Validate and describe a scene, with all warnings");
+    addSceneOptions(*infoCommand, info.scene);
+    infoCommand->add_flag("--json", info.json, "Print JSON");
+    methodsCommand =
+        app.add_subcommand("methods", "Light models, gather strategies, what combines");
+    sceneCommand =
+        app.add_subcommand("scene", fmt::format("Write a built-in scene as Mitsuba XML: {}",
+                                                fmt::join(io::builtinSceneNames(), ", ")));
+    addSceneOptions(*sceneCommand, scene.scene);
+    sceneCommand->add_option("-o,--output", scene.folder, "Folder to write")->required();
+    convertCommand = app.add_subcommand("convert", "Write any readable scene as Mitsuba XML");
+    addSceneOptions(*convertCommand, convert.scene);
+    convertCommand->add_option("-o,--output", convert.folder, "Folder to write")->required();
+    for (CLI::App* command : app.get_subcommands({})) addGlobalOptions(*command, global);
+  }
+
+  ExitCode dispatch(const std::string& text) const {
+    if (*renderCommand) return app::render(render, global, text);
+    if (*compareCommand) return compareImages(compare);
+    if (*infoCommand) return app::info(info, global);
+    if (*sceneCommand) {
+      const std::vector<std::string> names = io::builtinSceneNames();
+      if (std::find(names.begin(), names.end(), scene.scene.scene) == names.end()) {
+        throw UsageError(fmt::format("'{}' is not a built-in scene; there are {}{}",
+                                     scene.scene.scene, fmt::join(names, ", "),
+                                     suggestion(scene.scene.scene, names)));
+      }
+      return app::convert(scene, global);
+    }
+    if (*convertCommand) return app::convert(convert, global);
+    fmt::print("{}", methodTable());
+    return ExitCode::done;
+  }
+};
+
+ExitCode fail(ExitCode code, const std::string& message) {
+  fmt::print(stderr, "error: {}\n", message);
+  return code;
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+  ExitCode code = ExitCode::failed;
+  CommandLine line;
+  try {
+    line.app.parse(argc, argv);
+    code = line.dispatch(quoted(argc, argv));
+  } catch (const CLI::Success& e) {  // --help, --version
+    line.app.exit(e);
+    code = ExitCode::done;
+  } catch (const CLI::Error& e) {
+    code = fail(ExitCode::usage, std::string(e.what()) + "; `lobelia --help` lists what there is");
+  } catch (const UsageError& e) {
+    code = fail(ExitCode::usage, e.what());
+  } catch (const InputError& e) {
+    code = fail(ExitCode::input, e.what());
+  } catch (const std::bad_alloc&) {
+    code =
+        fail(ExitCode::failed, "out of memory; lower --size, --num-lights or the scene's detail");
+  } catch (const std::exception& e) {
+    code = fail(ExitCode::failed, e.what());
+  }
+  return static_cast<int>(code);
+}
+
+}  // namespace lobelia::app

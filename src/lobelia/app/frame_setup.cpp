@@ -1,0 +1,183 @@
+#include "lobelia/app/frame_setup.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+
+#include "lobelia/io/image_io.h"
+
+namespace lobelia::app {
+namespace {
+
+// Integers separated by one character, exactly N of them.
+template <size_t N>
+std::array<int, N> parseIntegers(const std::string& text, char separator, const char* option,
+                                 const char* form) {
+  std::array<int, N> out{};
+  const char* p = text.data();
+  const char* end = p + text.size();
+  for (size_t i = 0; i < N; ++i) {
+    const auto [next, error] = std::from_chars(p, end, out[i]);
+    const bool last = i + 1 == N;
+    if (error != std::errc() || (last ? next != end : next == end || *next != separator)) {
+      throw UsageError(fmt::format("{} '{}' is not of the form {}", option, text, form));
+    }
+    p = next + 1;
+  }
+  return out;
+}
+
+const std::vector<std::string>& knownLayers() {
+  static const std::vector<std::string> names{"albedo",   "normal",   "depth",   "direct",
+                                              "indirect", "specular", "variance"};
+  return names;
+}
+
+std::vector<std::string> requestedLayers(const RenderOptions& options) {
+  std::vector<std::string> out;
+  size_t begin = 0;
+  while (begin < options.aovs.size()) {
+    const size_t end = std::min(options.aovs.find(',', begin), options.aovs.size());
+    const std::string name = options.aovs.substr(begin, end - begin);
+    if (std::find(knownLayers().begin(), knownLayers().end(), name) == knownLayers().end()) {
+      throw UsageError(fmt::format("--aov '{}' is not known; there are {}{}", name,
+                                   fmt::join(knownLayers(), ", "),
+                                   suggestion(name, knownLayers())));
+    }
+    out.push_back(name);
+    begin = end + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
+  const Camera* chosen = options.camera.empty() ? &scene.cameras.front() : nullptr;
+  std::vector<std::string> names;
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    const Camera& camera = scene.cameras[i];
+    names.push_back(camera.name.empty() ? std::to_string(i) : camera.name);
+    if (options.camera == camera.name || options.camera == std::to_string(i)) {
+      if (!options.camera.empty()) chosen = &camera;
+    }
+  }
+  if (chosen == nullptr) {
+    throw UsageError(fmt::format("--camera '{}' is not in the scene; there are {}{}",
+                                 options.camera, fmt::join(names, ", "),
+                                 suggestion(options.camera, names)));
+  }
+  Camera camera = *chosen;
+  if (!options.size.empty()) {
+    const auto [width, height] =
+        parseIntegers<2>(options.size, 'x', "--size", "WxH, as in 640x480");
+    if (width < 1 || height < 1 || width > 65536 || height > 65536) {
+      throw UsageError(fmt::format("--size {}: sides go from 1 to 65536 pixels", options.size));
+    }
+    camera.width = width;
+    camera.height = height;
+    camera.cropX0 = camera.cropY0 = camera.cropX1 = camera.cropY1 = 0;
+  }
+  if (!options.crop.empty()) {
+    const auto [x0, y0, x1, y1] = parseIntegers<4>(options.crop, ',', "--crop", "X0,Y0,X1,Y1");
+    if (x0 < 0 || y0 < 0 || x1 <= x0 || y1 <= y0 || x1 > camera.width || y1 > camera.height) {
+      throw UsageError(fmt::format("--crop {} is not a window within {}x{}", options.crop,
+                                   camera.width, camera.height));
+    }
+    camera.cropX0 = x0, camera.cropY0 = y0, camera.cropX1 = x1, camera.cropY1 = y1;
+  }
+  if (camera.cropX1 == 0) {
+    camera.cropX1 = camera.width;
+    camera.cropY1 = camera.height;
+  }
+  return camera;
+}
+
+PixelSet choosePixels(const Camera& camera, const RenderOptions& options) {
+  if (options.pixels == 0) return {};
+  const int width = camera.cropX1 - camera.cropX0, height = camera.cropY1 - camera.cropY0;
+  const size_t all = static_cast<size_t>(width) * static_cast<size_t>(height);
+  if (options.pixels >= all) return {};
+  return spreadPixels(width, height, options.pixels, options.seed);
+}
+
+Film makeFilm(const Camera& camera, const RenderOptions& options) {
+  Film film;
+  film.fullWidth = camera.width;
+  film.fullHeight = camera.height;
+  film.x0 = camera.cropX0;
+  film.y0 = camera.cropY0;
+  film.width = camera.cropX1 - camera.cropX0;
+  film.height = camera.cropY1 - camera.cropY0;
+  film.addLayer("");
+  film.addLayer("direct");
+  film.addLayer("indirect");
+  for (const std::string& name : requestedLayers(options)) {
+    film.addLayer(name, name == "depth" ? 1 : 3);
+  }
+  return film;
+}
+
+void composePicture(Film& film, const RenderOptions& options) {
+  const std::vector<float>& direct = film.layers.at("direct").values;
+  const std::vector<float>& indirect = film.layers.at("indirect").values;
+  std::vector<float>& picture = film.layers.at("").values;
+  const float d = options.component == "indirect" ? 0.f : 1.f;
+  const float i = options.component == "direct" ? 0.f : 1.f;
+  for (size_t k = 0; k < picture.size(); ++k) {
+    // Not 0 * x, which would turn a non-finite value of the other part into one of this.
+    picture[k] = (d > 0 ? direct[k] : 0) + (i > 0 ? indirect[k] : 0);
+  }
+  const std::vector<std::string> wanted = requestedLayers(options);
+  for (const char* name : {"direct", "indirect"}) {
+    if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) film.layers.erase(name);
+  }
+}
+
+void requireWritable(const std::string& file) {
+  namespace fs = std::filesystem;
+  const fs::path path(file);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw UsageError(fmt::format("cannot write {}: there is no folder {}", file, folder.string()));
+  }
+  if (fs::is_directory(path, error))
+    throw UsageError(fmt::format("cannot write {}: it is a folder", file));
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw UsageError(
+        fmt::format("cannot write {}: no permission to write in {}", file, folder.string()));
+  }
+}
+
+void requireOutputs(const RenderOptions& options) {
+  for (const std::string& file : options.outputs) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (extension != ".exr" && extension != ".png") {
+      throw UsageError(fmt::format("-o {}: pictures are written as .exr or .png", file));
+    }
+    requireWritable(file);
+  }
+  for (const std::string& file : {options.stats, options.saveLights}) {
+    if (!file.empty()) requireWritable(file);
+  }
+}
+
+void writeOutputs(const Film& film, const RenderOptions& options, Context& context) {
+  for (const std::string& file : options.outputs) {
+    if (std::filesystem::path(file).extension() == ".exr") {
+      io::writeExr(file, film);
+    } else {
+      const ToneCurve curve = measureToneCurve(film, {.exposure = options.exposure});
+      io::writePng(file, toneMap(film, curve), film.width, film.height);
+    }
+    context.info(fmt::format("wrote {}", file));
+  }
+}
+
+}  // namespace lobelia::app

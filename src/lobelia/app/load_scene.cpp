@@ -1,0 +1,85 @@
+#include "lobelia/app/load_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "lobelia/io/scene_io.h"
+
+namespace lobelia::app {
+namespace {
+
+std::string describe(const Finding& finding) {
+  return finding.where.file.empty() ? finding.message
+                                    : toString(finding.where) + ": " + finding.message;
+}
+
+io::ReadSettings readSettings(const SceneOptions& options) {
+  io::ReadSettings settings;
+  settings.strict = options.strict;
+  settings.environment = options.environment;
+  for (const std::string& definition : options.definitions) {
+    const size_t equals = definition.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UsageError(fmt::format("-D {}: not name=value, as in -D spp=64", definition));
+    }
+    settings.definitions[definition.substr(0, equals)] = definition.substr(equals + 1);
+  }
+  return settings;
+}
+
+bool isBuiltin(const std::string& name) {
+  const std::vector<std::string> names = io::builtinSceneNames();
+  return !std::filesystem::exists(name) &&
+         std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void report(const std::vector<Finding>& findings, Context& context) {
+  constexpr size_t shown = 10;
+  size_t warnings = 0;
+  for (const Finding& finding : findings) {
+    if (finding.severity != Severity::warning) {
+      context.debug(describe(finding));
+    } else if (++warnings <= shown) {
+      context.warning(describe(finding));
+    } else {
+      context.debug(describe(finding));
+    }
+  }
+  if (warnings > shown) {
+    context.warning(
+        fmt::format("{} more warnings; `lobelia info` lists them all", warnings - shown));
+  }
+}
+
+}  // namespace
+
+Scene loadScene(const SceneOptions& options, Context& context) {
+  const StageTimer timer(context, "load");
+  const io::ReadSettings settings = readSettings(options);
+  Scene scene;
+  if (isBuiltin(options.scene)) {
+    if (!settings.definitions.empty()) throw UsageError("-D: built-in scenes have no definitions");
+    scene = io::builtinScene(options.scene, options.detail);
+    io::applyEnvironment(scene, settings);
+  } else {
+    scene = io::readScene(options.scene, settings, context);
+  }
+  for (Finding& finding : validate(scene)) {
+    if (finding.where.file.empty()) finding.where.file = scene.file;
+    scene.findings.push_back(std::move(finding));
+  }
+  for (const Finding& finding : scene.findings) {
+    const bool fatal = finding.severity == Severity::error ||
+                       (options.strict && finding.severity == Severity::warning);
+    if (fatal) throw InputError(finding.where, finding.message);
+  }
+  if (scene.cameras.empty()) {
+    throw InputError({options.scene, 0, 0}, "the scene has no camera; add a <sensor>");
+  }
+  report(scene.findings, context);
+  return scene;
+}
+
+}  // namespace lobelia::app

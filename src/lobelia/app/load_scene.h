@@ -1,0 +1,14 @@
+// A scene from a file or a built-in name, validated, with its findings reported.
+#pragma once
+
+#include "lobelia/app/render_options.h"
+#include "lobelia/scene/scene.h"
+
+namespace lobelia::app {
+
+// Throws InputError for anything that makes the scene unusable (in strict mode: any warning).
+// Findings of reading and of validation stay in Scene::findings; up to ten are reported to the
+// context, the rest counted.
+Scene loadScene(const SceneOptions& options, Context& context);
+
+}  // namespace lobelia::app

@@ -1,0 +1,80 @@
+#include "lobelia/app/methods.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "lobelia/base/error.h"
+
+namespace lobelia::app {
+
+const std::vector<LightModel>& lightModels() {
+  static const std::vector<LightModel> models{
+      {"path",
+       "reference path tracing: next-event estimation and BSDF sampling, no virtual lights",
+       {}},
+      {"light", "light tracing: particles connected to the camera (a check; blind to mirrors)", {}},
+      {"vpl", "diffuse virtual point lights only, clamped by default", {"all"}},
+      {"glossy", "diffuse and spherical-Gaussian lights", {"all"}},
+  };
+  return models;
+}
+
+const std::vector<GatherStrategy>& gatherStrategies() {
+  static const std::vector<GatherStrategy> strategies{
+      {"all", "every light at every receiver (brute force, the reference of all strategies)"},
+  };
+  return strategies;
+}
+
+namespace {
+
+template <class T>
+std::vector<std::string> names(const std::vector<T>& items) {
+  std::vector<std::string> out;
+  for (const T& item : items) out.push_back(item.name);
+  return out;
+}
+
+template <class T>
+const T& find(const std::vector<T>& items, const std::string& name, const char* what) {
+  const auto it =
+      std::find_if(items.begin(), items.end(), [&](const T& i) { return i.name == name; });
+  if (it != items.end()) return *it;
+  throw UsageError(fmt::format("{} '{}' is not known; there are {}{}", what, name,
+                               fmt::join(names(items), ", "), suggestion(name, names(items))));
+}
+
+}  // namespace
+
+void requireMethod(const std::string& lights, const std::string& gather) {
+  const LightModel& model = find(lightModels(), lights, "--lights");
+  find(gatherStrategies(), gather, "--gather");
+  if (model.gathers.empty()) return;
+  if (std::find(model.gathers.begin(), model.gathers.end(), gather) != model.gathers.end()) return;
+  throw UsageError(fmt::format("--lights {} does not combine with --gather {}; it does with {}",
+                               lights, gather, fmt::join(model.gathers, ", ")));
+}
+
+std::string methodTable() {
+  std::string out = "Light models (--lights):\n";
+  for (const LightModel& m : lightModels()) out += fmt::format("  {:<8} {}\n", m.name, m.summary);
+  out += "\nGather strategies (--gather):\n";
+  for (const GatherStrategy& g : gatherStrategies())
+    out += fmt::format("  {:<8} {}\n", g.name, g.summary);
+  out += "\nWhat combines:\n  " + fmt::format("{:<8}", "");
+  for (const GatherStrategy& g : gatherStrategies()) out += fmt::format(" {:<8}", g.name);
+  out += "\n";
+  for (const LightModel& m : lightModels()) {
+    out += fmt::format("  {:<8}", m.name);
+    for (const GatherStrategy& g : gatherStrategies()) {
+      const bool yes = std::find(m.gathers.begin(), m.gathers.end(), g.name) != m.gathers.end();
+      out += fmt::format(" {:<8}", m.gathers.empty() ? "(none)" : yes ? "yes" : "-");
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace lobelia::app

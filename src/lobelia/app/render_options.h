@@ -1,0 +1,56 @@
+// What `lobelia render` can be told; defaults give a good image.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lobelia/app/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lobelia::app {
+
+struct SceneOptions {
+  std::string scene;                     // file, or the name of a built-in scene
+  std::vector<std::string> definitions;  // -D name=value
+  std::string environment;
+  bool strict = false;
+  float detail = 1;  // built-in scenes
+};
+
+struct RenderOptions {
+  SceneOptions scene;
+  std::vector<std::string> outputs;  // .exr and .png
+  std::string lights = "glossy", gather = "all";
+  int spp = 0;  // 0: the method's default
+  std::string size, crop, camera;
+  uint64_t pixels = 0;
+  int maxDepth = 0;  // 0: the scene's
+  uint64_t lightCount = 2048, environmentLights = 1024;
+  std::string direct = "nee";
+  float specularLimit = 0.08f;
+  std::string clamp;  // "": the method's default
+  std::string component = "all";
+  uint64_t seed = 0;
+  double timeLimit = 0;
+  std::string saveLights, loadLights, stats, aovs;
+  float exposure = 0;
+};
+
+struct GlobalOptions {
+  int threads = 0;
+  bool quiet = false, verbose = false;
+  Verbosity verbosity() const {
+    return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
+  }
+};
+
+void addSceneOptions(CLI::App& command, SceneOptions& options);
+void addRenderOptions(CLI::App& command, RenderOptions& options);
+void addGlobalOptions(CLI::App& command, GlobalOptions& options);
+
+}  // namespace lobelia::app

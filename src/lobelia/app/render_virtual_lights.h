@@ -1,0 +1,22 @@
+// Rendering with virtual lights: lights once, then receivers and gather, band by band.
+#pragma once
+
+#include "lobelia/app/render_options.h"
+#include "lobelia/film/film.h"
+#include "lobelia/gather/gather.h"
+#include "lobelia/lights/light_pass.h"
+
+namespace lobelia::app {
+
+struct VirtualLightReport {  // for --stats
+  VirtualLights lights;
+  uint64_t diffuseReceivers = 0, glossyReceivers = 0, receiverPoints = 0;
+};
+
+// Adds to film's layers "direct" and "indirect" (and AOVs). When cancelled or out of time, every
+// pixel holds the mean of the samples it got; pixels without any have alpha 0.
+VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSampler& emitters,
+                                       const Camera& camera, const PixelSet& pixels, int maxDepth,
+                                       const RenderOptions& options, Film& film, Context& context);
+
+}  // namespace lobelia::app

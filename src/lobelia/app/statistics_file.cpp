@@ -1,0 +1,91 @@
+#include "lobelia/app/statistics_file.h"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "lobelia/store/store.h"
+#include "lobelia/version.h"
+
+namespace lobelia::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+uint64_t peakBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+
+Json secondsJson(const Statistics& statistics) {
+  Json out;
+  for (const char* stage : {"load", "accel", "receivers", "lights", "trees", "traverse",
+                            "visibility", "shade", "trace", "total"}) {
+    out[stage] = statistics.seconds(stage);
+  }
+  return out;
+}
+
+}  // namespace
+
+void writeStatistics(const std::string& file, const RenderOptions& options, const Scene& scene,
+                     const Film& film, const VirtualLightReport& report, const Context& context) {
+  const Statistics& s = context.statistics;
+  const VirtualLights& lights = report.lights;
+  const bool virtualLights = options.lights != "path" && options.lights != "light";
+  size_t pixels = film.pixelCount();
+  if (!film.alpha.empty()) {
+    pixels = static_cast<size_t>(std::count(film.alpha.begin(), film.alpha.end(), 1.f));
+  }
+  const double shadowRays = static_cast<double>(s.count("shadow_rays"));
+  const double lightBytes = static_cast<double>(
+      lights.omni.size() * sizeof(OmniLight) +
+      lights.directional.size() * sizeof(DirectionalLight) +
+      lights.diffuse.size() * sizeof(DiffuseLight) + lights.glossy.size() * sizeof(GlossyLight));
+  const double receivers = static_cast<double>(report.diffuseReceivers + report.glossyReceivers);
+  const double receiverBytes =
+      static_cast<double>(report.receiverPoints) * sizeof(ReceiverPoint) + receivers * sizeof(Lobe);
+  Json json;
+  json["version"] = kVersion;
+  json["scene"] = {{"triangles", triangleCount(scene)},
+                   {"materials", scene.materials.size()},
+                   {"emitters", scene.emitters.size()}};
+  json["lights"] = {{"model", options.lights},
+                    {"omni", lights.omni.size()},
+                    {"directional", lights.directional.size()},
+                    {"diffuse", lights.diffuse.size()},
+                    {"glossy", lights.glossy.size()},
+                    {"spherical", 0},
+                    {"vsgl", 0},
+                    {"particles", lights.particles}};
+  json["gather"] = {{"strategy", virtualLights ? options.gather : "none"},
+                    {"mode", ""},
+                    {"bound", ""},
+                    {"threshold", 0},
+                    {"error", 0}};
+  json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
+  json["seconds"] = secondsJson(s);
+  json["counts"] = {{"shadow_rays", s.count("shadow_rays")},
+                    {"path_rays", s.count("path_rays")},
+                    {"rays_per_pixel", ratio(shadowRays, static_cast<double>(pixels))},
+                    {"node_pairs_visited", s.count("node_pairs_visited")},
+                    {"node_pairs_shaded", s.count("node_pairs_shaded")},
+                    {"cut_nodes_per_pixel", 0},
+                    {"lights_per_light_node", lights.size() > 0 ? 1 : 0},
+                    {"pixels_per_pixel_node", report.receiverPoints > 0 ? 1 : 0},
+                    {"specular_connections", s.count("specular_connections")},
+                    {"paths_cut", s.count("paths_cut")},
+                    {"nonfinite", s.count("nonfinite") + countNonFinite(film)}};
+  json["memory"] = {{"peak_bytes", peakBytes()},
+                    {"embree_bytes", s.value("embree_bytes")},
+                    {"bytes_per_light", ratio(lightBytes, static_cast<double>(lights.size()))},
+                    {"bytes_per_receiver", ratio(receiverBytes, receivers)}};
+  const std::string text = json.dump(2) + "\n";
+  store::writeFileAtomically(file, std::as_bytes(std::span<const char>(text)));
+}
+
+}  // namespace lobelia::app
