@@ -13,6 +13,16 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(OpenImageIO REQUIRED)
+# Debian 12's OpenImageIO names include folders of OpenCV, on which its package does not depend;
+# CMake refuses folders that do not exist.
+get_target_property(includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+foreach(folder IN LISTS includes)
+  if(IS_ABSOLUTE "${folder}" AND NOT EXISTS "${folder}")
+    list(REMOVE_ITEM includes "${folder}")
+  endif()
+endforeach()
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+  INTERFACE_INCLUDE_DIRECTORIES "${includes}")
 find_package(ZLIB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy libhwy-contrib)
