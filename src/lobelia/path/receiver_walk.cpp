@@ -1,0 +1,267 @@
+// Eye paths that split light transport between receivers and specular connections.
+//
+// Every path from the camera to an emitter scatters at each vertex by a rough (R) or a sharp (S)
+// lobe. Reading from the eye, S* R is the way to the first receiver. From a receiver light arrives
+//  - straight from an emitter: next-event estimation and a sample of the rough lobes, weighted by
+//    the power heuristic [Veach97 9.2];
+//  - from a surface that scatters by R there: a virtual light, left to the gather;
+//  - from a surface that scatters by S there: a specular connection. The receiver's one sample of
+//    its rough lobes goes on from a surface that has sharp lobes, by these only, S+, to an emitter
+//    or to the next R: a further receiver of the pixel, to which all this applies again.
+// The three exclude one another and leave nothing out, so that the sum is the path tracer's result
+// for any specular limit. At vertices of a chain, sharp lobes that are not delta are lit by
+// next-event estimation too; delta lobes find emitters by hitting them.
+//
+// A vertex with both kinds of lobes is a receiver AND continues the chain. Branches are thinned by
+// Russian roulette on their weight in the pixel, tracing (cheap) later than receivers, each of
+// which costs a gather over all lights.
+#include "lobelia/path/receiver_walk.h"
+
+namespace lobelia {
+namespace {
+
+// Weight in the pixel below which rays are traced only with proportional probability: with lossless
+// lobes at every vertex at most 1 / threshold branches live at a time.
+constexpr float kRayThreshold = 0.05f;
+constexpr float kReceiverThreshold = 0.25f;
+
+bool isDelta(LobeType type) {
+  return type == LobeType::deltaReflection || type == LobeType::deltaTransmission ||
+         type == LobeType::null;
+}
+bool transmits(LobeType type) {
+  return type == LobeType::microfacetTransmission || type == LobeType::diffuseTransmission;
+}
+bool inSet(const Lobe& lobe, LobeSet set) {
+  return (static_cast<int>(set) & static_cast<int>(lobe.sharp ? LobeSet::sharp : LobeSet::rough)) !=
+         0;
+}
+
+// Can next-event estimation light any lobe of the set?
+bool canEvaluate(const Bsdf& bsdf, LobeSet set) {
+  for (int i = 0; i < bsdf.lobeCount; ++i)
+    if (inSet(bsdf.lobes[i], set) && !isDelta(bsdf.lobes[i].type)) return true;
+  return false;
+}
+
+// Normal on the side that emitters are wanted from; zero: either side.
+Vec3f receivingNormal(const Bsdf& bsdf, Vec3f wo, LobeSet set) {
+  for (int i = 0; i < bsdf.lobeCount; ++i)
+    if (inSet(bsdf.lobes[i], set) && transmits(bsdf.lobes[i].type)) return {};
+  return dot(wo, bsdf.frame.n) >= 0 ? bsdf.frame.n : -bsdf.frame.n;
+}
+
+}  // namespace
+
+struct EyeWalk::State {
+  Sampler random;
+  uint32_t pixel;
+  Receivers* receivers;
+  EyeCounts* counts;
+  EyeSample result{};
+  std::vector<EyeSegment> open{};  // segments still to be followed
+};
+
+struct EyeWalk::Vertex {
+  SurfacePoint at;
+  Bsdf bsdf;
+  Vec3f wo;
+  int depth;  // edges from the camera
+};
+
+EyeWalk::EyeWalk(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+                 const EyeSettings& settings, uint64_t seed)
+    : tracer_(tracer), emitters_(emitters), camera_(camera), settings_(settings), seed_(seed) {}
+
+EyeSample EyeWalk::trace(int x, int y, uint32_t pixel, Receivers* receivers,
+                         EyeCounts* counts) const {
+  const uint64_t stream =
+      (static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32) | static_cast<uint32_t>(x);
+  State state{Sampler(seed_, stream, static_cast<uint32_t>(settings_.sample)), pixel, receivers,
+              counts};
+  float filterWeight = 1;
+  const Vec2f offset =
+      sampleFilter(camera_.filter, camera_.filterRadius, state.random.next2D(), &filterWeight);
+  const Vec2f film(static_cast<float>(x) + 0.5f + offset.x,
+                   static_cast<float>(y) + 0.5f + offset.y);
+  EyeSegment first;
+  first.ray = generateRay(camera_, film, state.random.next2D());
+  state.result.weight = filterWeight / static_cast<float>(settings_.sampleCount);
+  first.throughput = Rgb(state.result.weight);
+  if (mayEnd(1)) state.open.push_back(first);
+  while (!state.open.empty()) {
+    const EyeSegment next = state.open.back();
+    state.open.pop_back();
+    step(next, &state);
+  }
+  return state.result;
+}
+
+float EyeWalk::importance(const EyeSegment& segment) const {
+  const Rgb t = segment.throughput;
+  return std::max(std::abs(t.x), std::max(std::abs(t.y), std::abs(t.z))) * segment.etaScale *
+         static_cast<float>(settings_.sampleCount);
+}
+
+void EyeWalk::step(const EyeSegment& segment, State* state) const {
+  ++state->counts->pathRays;
+  const auto hit = tracer_.intersect(segment.ray);
+  const bool weighted = segment.pdf > 0;
+  if (!hit) {
+    const Rgb radiance = emitters_.escaped(segment.ray.d);
+    const float pdf = weighted ? emitters_.pdfEscaped(segment.p, segment.n, segment.ray.d) : 0;
+    return addEmission(segment, radiance, pdf, state);
+  }
+  Vertex v;
+  v.at = surfacePoint(emitters_.scene(), *hit);
+  v.wo = -segment.ray.d;
+  v.depth = segment.depth + 1;
+  if (v.at.emitter.valid()) {
+    const float pdf = weighted ? emitters_.pdfHit(segment.p, segment.n, v.at, segment.ray.d) : 0;
+    addEmission(segment, emitters_.emitted(v.at, v.wo), pdf, state);
+  }
+  const bool first = segment.depth == 0;
+  if (!mayEnd(v.depth + 1) && !first) return;
+  v.bsdf = makeBsdf(emitters_.scene(), v.at, v.wo, settings_.specularLimit);
+  if (first) {
+    state->result.hit = true;
+    state->result.albedo = albedo(v.bsdf, v.wo);
+    state->result.normal = v.bsdf.frame.n;
+    state->result.depth = hit->t;
+    if (!mayEnd(v.depth + 1)) return;
+  }
+  if (v.depth >= kMaxEyeDepth) {
+    ++state->counts->cut;
+    return;
+  }
+  const bool sharp = hasLobes(v.bsdf, LobeSet::sharp);
+  if (segment.kind == EyeSegment::Kind::receiver) {
+    if (!sharp) return;  // what comes from here is the virtual lights' part
+    ++state->counts->specularConnections;
+  } else if (hasLobes(v.bsdf, LobeSet::rough)) {
+    receive(segment, v, state);
+  }
+  if (sharp) extend(segment, v, state);
+}
+
+void EyeWalk::addEmission(const EyeSegment& segment, Rgb radiance, float emitterPdf,
+                          State* state) const {
+  if (segment.depth == 0 && settings_.hideEmitters) return;
+  // Without direct samples the emitters themselves are virtual lights to receivers.
+  if (segment.kind == EyeSegment::Kind::receiver && settings_.directSamples == 0) return;
+  if (radiance == Rgb(0.f)) return;
+  const float weight =
+      segment.pdf > 0
+          ? powerHeuristic(segment.pdf, static_cast<float>(segment.emitterSamples) * emitterPdf)
+          : 1;
+  const Rgb light = segment.throughput * radiance * weight;
+  if (!isFinite(light)) {
+    ++state->counts->nonFinite;
+    return;
+  }
+  (segment.direct ? state->result.direct : state->result.indirect) += light;
+  if (segment.connection) state->result.specular += light;
+}
+
+Rgb EyeWalk::nextEvent(const Vertex& v, LobeSet set, int sampleCount, State* state) const {
+  if (sampleCount == 0 || !canEvaluate(v.bsdf, set)) return Rgb(0.f);
+  const Vec3f n = receivingNormal(v.bsdf, v.wo, set);
+  Rgb sum(0.f);
+  for (int i = 0; i < sampleCount; ++i) {
+    const float uSelect = state->random.next1D();
+    const Vec2f u = state->random.next2D();
+    const auto light = emitters_.sampleDirection(v.at.p, n, {uSelect, u.x, u.y});
+    if (!light) continue;
+    const Rgb f = evaluate(v.bsdf, v.wo, light->wi, set);
+    if (!(maxComponent(f) > 0)) continue;
+    ++state->counts->shadowRays;
+    const Vec3f origin = offsetOrigin(v.at, light->wi);
+    const bool finite = light->distance < 1e37f;
+    const bool seen =
+        finite ? tracer_.visible(origin, light->target) : !tracer_.occluded({origin, light->wi});
+    if (!seen) continue;
+    const float weight = light->delta ? 1
+                                      : powerHeuristic(static_cast<float>(sampleCount) * light->pdf,
+                                                       pdf(v.bsdf, v.wo, light->wi, set));
+    const Rgb value = f * light->weight * weight;
+    if (isFinite(value))
+      sum += value;
+    else
+      ++state->counts->nonFinite;
+  }
+  return sum / static_cast<float>(sampleCount);
+}
+
+void EyeWalk::receive(const EyeSegment& segment, const Vertex& v, State* state) const {
+  const bool primary = segment.kind == EyeSegment::Kind::eye;
+  const Rgb light =
+      segment.throughput * nextEvent(v, LobeSet::rough, settings_.directSamples, state);
+  (primary ? state->result.direct : state->result.indirect) += light;
+  if (!primary) state->result.specular += light;
+  if (mayEnd(v.depth + 2) || settings_.directSamples == 0) record(segment, v, state);
+
+  EyeSegment next;
+  next.kind = EyeSegment::Kind::receiver;
+  next.direct = primary;
+  next.connection = !primary;
+  scatter(segment, v, LobeSet::rough, settings_.directSamples, next, state);
+}
+
+void EyeWalk::record(const EyeSegment& segment, const Vertex& v, State* state) const {
+  const float survival = std::min(1.f, importance(segment) / kReceiverThreshold);
+  if (!(state->random.next1D() < survival)) return;
+  ReceiverPoint r;
+  r.p = v.at.p;
+  r.ng = v.bsdf.ng;
+  r.frame = v.bsdf.frame;
+  r.wo = v.wo;
+  r.weight = segment.throughput / survival;
+  r.error = v.at.error;
+  r.pixel = state->pixel;
+  r.firstLobe = static_cast<uint32_t>(state->receivers->lobes.size());
+  r.depth = static_cast<uint8_t>(v.depth);
+  r.primary = segment.kind == EyeSegment::Kind::eye;
+  for (int i = 0; i < v.bsdf.lobeCount; ++i)
+    if (!v.bsdf.lobes[i].sharp) state->receivers->lobes.push_back(v.bsdf.lobes[i]);
+  r.lobeCount = static_cast<uint8_t>(state->receivers->lobes.size() - r.firstLobe);
+  state->receivers->points.push_back(r);
+}
+
+void EyeWalk::extend(const EyeSegment& segment, const Vertex& v, State* state) const {
+  EyeSegment next;
+  next.kind =
+      segment.kind == EyeSegment::Kind::eye ? EyeSegment::Kind::eye : EyeSegment::Kind::chain;
+  next.direct = next.kind == EyeSegment::Kind::eye;
+  next.connection = !next.direct;
+  const Rgb light = segment.throughput * nextEvent(v, LobeSet::sharp, 1, state);
+  (next.direct ? state->result.direct : state->result.indirect) += light;
+  if (next.connection) state->result.specular += light;
+  scatter(segment, v, LobeSet::sharp, 1, next, state);
+}
+
+void EyeWalk::scatter(const EyeSegment& from, const Vertex& v, LobeSet set, int emitterSamples,
+                      EyeSegment next, State* state) const {
+  const float uLobe = state->random.next1D();
+  const Vec2f u = state->random.next2D();
+  const float uRoulette = state->random.next1D();
+  const auto s = sample(v.bsdf, v.wo, uLobe, u, set);
+  if (!s) return;
+  next.throughput = from.throughput * s->weight;
+  next.etaScale = from.etaScale * (s->transmission ? s->eta * s->eta : 1.f);
+  if (!isFinite(next.throughput)) {
+    ++state->counts->nonFinite;
+    return;
+  }
+  const float survival = std::min(1.f, importance(next) / kRayThreshold);
+  if (!(uRoulette < survival)) return;
+  next.throughput /= survival;
+  next.ray = {offsetOrigin(v.at, s->wi), s->wi};
+  next.depth = v.depth;
+  next.p = v.at.p;
+  next.n = receivingNormal(v.bsdf, v.wo, set);
+  next.pdf = s->delta ? 0 : s->pdf;
+  next.emitterSamples = emitterSamples;
+  state->open.push_back(next);
+}
+
+}  // namespace lobelia
