@@ -1,0 +1,365 @@
+#include "lobelia/path/emitter_tree.h"
+
+#include <array>
+#include <bit>
+
+#include "lobelia/base/parallel.h"
+
+namespace lobelia {
+namespace {
+
+constexpr int kBins = 12;
+constexpr int kMaxDepth = 62;          // a path has 63 bits below its leading one
+constexpr size_t kSubtreeSize = 4096;  // ranges up to this size are built by one thread
+constexpr uint32_t kLeafBit = 0x80000000u;
+
+// Cone of normals with the widest emission around them.
+struct Cone {
+  Vec3f axis{0, 0, 1};
+  float cosO = 1, cosE = 1;
+  bool empty = true;
+};
+
+float safeAcos(float x) { return std::acos(std::clamp(x, -1.f, 1.f)); }
+
+// [Conty18, algorithm 1]
+Cone unite(const Cone& a, const Cone& b) {
+  if (a.empty) return b;
+  if (b.empty) return a;
+  const float cosE = std::min(a.cosE, b.cosE);
+  const float thetaA = safeAcos(a.cosO), thetaB = safeAcos(b.cosO);
+  const Cone& wide = thetaA >= thetaB ? a : b;
+  const Cone& narrow = thetaA >= thetaB ? b : a;
+  const float thetaWide = std::max(thetaA, thetaB), thetaNarrow = std::min(thetaA, thetaB);
+  const float between = safeAcos(dot(a.axis, b.axis));
+  if (std::min(between + thetaNarrow, kPi) <= thetaWide) {
+    return {wide.axis, wide.cosO, cosE, false};
+  }
+  const float theta = 0.5f * (thetaWide + between + thetaNarrow);
+  const Vec3f turn = cross(wide.axis, narrow.axis);
+  const float turnLength = length(turn);
+  if (theta >= kPi || turnLength < 1e-9f) return {wide.axis, -1, cosE, false};
+  // Turns the wide axis towards the narrow one.
+  const float angle = theta - thetaWide;
+  const Vec3f side = cross(turn / turnLength, wide.axis);
+  return {normalize(wide.axis * std::cos(angle) + side * std::sin(angle)), std::cos(theta), cosE,
+          false};
+}
+
+// Measure of the cone in the split cost [Conty18, eq. 1].
+float orientationMeasure(const Cone& cone) {
+  const float thetaO = safeAcos(cone.cosO);
+  const float thetaW = std::min(thetaO + safeAcos(cone.cosE), kPi);
+  const float sinO = std::sin(thetaO);
+  return kTwoPi * (1 - cone.cosO) +
+         0.5f * kPi *
+             (2 * thetaW * sinO - std::cos(thetaO - 2 * thetaW) - 2 * thetaO * sinO + cone.cosO);
+}
+
+struct Cluster {
+  Bounds3f bounds;
+  Cone cone;
+  float intensity = 0;
+  size_t count = 0;
+  void add(const TreeLight& light) {
+    bounds.add(light.bounds);
+    cone = unite(cone, {light.axis, light.cosThetaO, light.cosThetaE, false});
+    intensity += light.intensity;
+    ++count;
+  }
+  void add(const Cluster& other) {
+    bounds.add(other.bounds);
+    cone = unite(cone, other.cone);
+    intensity += other.intensity;
+    count += other.count;
+  }
+  // [Conty18, eq. 2]; the diagonal keeps flat and linear clusters from costing nothing.
+  float cost() const {
+    if (count == 0) return 0;
+    const Vec3f e = bounds.extent();
+    const float area = e.x * e.y + e.y * e.z + e.z * e.x + 1e-3f * dot(e, e);
+    return intensity * area * orientationMeasure(cone);
+  }
+};
+
+int16_t quantise(float x) {
+  return static_cast<int16_t>(std::lround(std::clamp(x, -1.f, 1.f) * 32767.f));
+}
+float dequantise(int16_t x) { return static_cast<float>(x) * (1 / 32767.f); }
+
+// Octahedral encoding (Cigolle et al. 2014).
+std::array<int16_t, 2> encodeAxis(Vec3f v) {
+  const float s = 1 / (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
+  float x = v.x * s, y = v.y * s;
+  if (v.z < 0) {
+    const float fx = (1 - std::abs(y)) * std::copysign(1.f, x);
+    y = (1 - std::abs(x)) * std::copysign(1.f, y);
+    x = fx;
+  }
+  return {quantise(x), quantise(y)};
+}
+Vec3f decodeAxis(int16_t qx, int16_t qy) {
+  float x = dequantise(qx), y = dequantise(qy);
+  const float z = 1 - std::abs(x) - std::abs(y);
+  if (z < 0) {
+    const float fx = (1 - std::abs(y)) * std::copysign(1.f, x);
+    y = (1 - std::abs(x)) * std::copysign(1.f, y);
+    x = fx;
+  }
+  return normalize(Vec3f(x, y, z));
+}
+
+// cos(max(0, a - b)) and sin(max(0, a - b)) for angles in [0, pi].
+struct Angle {
+  float cosine, sine;
+};
+Angle minus(Angle a, Angle b) {
+  if (a.cosine >= b.cosine) return {1, 0};
+  return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
+}
+Angle fromCosine(float c) { return {c, std::sqrt(std::max(0.f, 1 - c * c))}; }
+
+int bitsFor(size_t count) { return static_cast<int>(std::bit_width(count == 0 ? 0 : count - 1)); }
+
+}  // namespace
+
+struct EmitterTree::Builder {
+  std::span<const TreeLight> lights;
+  std::vector<Node>& nodes;
+  std::vector<uint64_t>& paths;
+  std::vector<uint32_t> order;
+
+  // A range of `order` that becomes the subtree at nodes[node].
+  struct Task {
+    size_t begin, end, node;
+    uint64_t path;
+    int depth;
+  };
+
+  Vec3f centre(uint32_t light) const { return lights[light].bounds.centre(); }
+
+  // Position in `order` that divides the range in two non-empty parts.
+  size_t split(const Task& task) {
+    const auto first = order.begin() + static_cast<ptrdiff_t>(task.begin);
+    const auto last = order.begin() + static_cast<ptrdiff_t>(task.end);
+    const size_t count = task.end - task.begin, half = task.begin + count / 2;
+    Bounds3f centres;
+    for (auto i = first; i != last; ++i) centres.add(centre(*i));
+    const Vec3f extent = centres.extent();
+    const float longest = maxComponent(extent);
+    if (!(longest > 0)) return half;
+    int bestAxis = -1, bestBin = 0;
+    float bestCost = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(extent[axis] > 0)) continue;
+      std::array<Cluster, kBins> bins;
+      for (auto i = first; i != last; ++i) {
+        bins[static_cast<size_t>(binOf(*i, axis, centres))].add(lights[*i]);
+      }
+      std::array<Cluster, kBins> right;  // right[b]: bins b and above
+      Cluster sum;
+      for (size_t b = kBins; b-- > 0;) sum.add(bins[b]), right[b] = sum;
+      Cluster left;
+      for (size_t b = 0; b + 1 < kBins; ++b) {
+        left.add(bins[b]);
+        if (left.count == 0 || right[b + 1].count == 0) continue;
+        const float cost = (left.cost() + right[b + 1].cost()) * longest / extent[axis];
+        if (bestAxis < 0 || cost < bestCost) {
+          bestAxis = axis, bestBin = static_cast<int>(b), bestCost = cost;
+        }
+      }
+    }
+    // Deep trees would not fit the path's bits: halve from there on.
+    const bool deep = task.depth + 2 + bitsFor(count) >= kMaxDepth;
+    if (bestAxis >= 0 && !deep) {
+      const auto middle = std::partition(
+          first, last, [&](uint32_t light) { return binOf(light, bestAxis, centres) <= bestBin; });
+      const size_t at = task.begin + static_cast<size_t>(middle - first);
+      if (at > task.begin && at < task.end) return at;
+    }
+    const int axis = extent.x == longest ? 0 : extent.y == longest ? 1 : 2;
+    std::nth_element(first, order.begin() + static_cast<ptrdiff_t>(half), last,
+                     [&](uint32_t a, uint32_t b) {
+                       const float ca = centre(a)[axis], cb = centre(b)[axis];
+                       return ca < cb || (ca == cb && a < b);
+                     });
+    return half;
+  }
+
+  int binOf(uint32_t light, int axis, const Bounds3f& centres) const {
+    const float x =
+        (centre(light)[axis] - centres.lo[axis]) / (centres.hi[axis] - centres.lo[axis]);
+    return std::clamp(static_cast<int>(x * kBins), 0, kBins - 1);
+  }
+
+  void store(const Cluster& cluster, uint32_t next, size_t node) {
+    Node& out = nodes[node];
+    for (int a = 0; a < 3; ++a) out.lo[a] = cluster.bounds.lo[a], out.hi[a] = cluster.bounds.hi[a];
+    const auto [x, y] = encodeAxis(cluster.cone.axis);
+    out.axisX = x, out.axisY = y;
+    out.cosThetaO = quantise(cluster.cone.cosO);
+    out.cosThetaE = quantise(cluster.cone.cosE);
+    out.intensity = cluster.intensity;
+    out.next = next;
+  }
+
+  // Divides a range; a subtree over m lights takes 2m - 1 nodes, so that places are known before.
+  std::array<Task, 2> divide(const Task& t) {
+    const size_t middle = split(t);
+    const size_t right = t.node + 2 * (middle - t.begin);
+    return {Task{t.begin, middle, t.node + 1, t.path << 1, t.depth + 1},
+            Task{middle, t.end, right, (t.path << 1) | 1, t.depth + 1}};
+  }
+
+  Cluster build(const Task& t) {
+    Cluster cluster;
+    if (t.end - t.begin == 1) {
+      const uint32_t light = order[t.begin];
+      cluster.add(lights[light]);
+      paths[light] = t.path;
+      store(cluster, light | kLeafBit, t.node);
+      return cluster;
+    }
+    const auto [left, right] = divide(t);
+    cluster = build(left);
+    cluster.add(build(right));
+    store(cluster, static_cast<uint32_t>(right.node), t.node);
+    return cluster;
+  }
+
+  // Upper levels one after another, the subtrees below them in parallel, then the upper nodes.
+  void buildAll() {
+    if (order.empty()) return;
+    std::vector<Task> tasks{{0, order.size(), 0, 1, 0}};
+    for (size_t i = 0; i < tasks.size(); ++i) {
+      if (tasks[i].end - tasks[i].begin <= kSubtreeSize) continue;
+      const auto children = divide(tasks[i]);
+      tasks.push_back(children[0]);
+      tasks.push_back(children[1]);
+    }
+    std::vector<Cluster> clusters(tasks.size());
+    parallelFor(tasks.size(), 1, [&](size_t i) {
+      if (tasks[i].end - tasks[i].begin <= kSubtreeSize) clusters[i] = build(tasks[i]);
+    });
+    // Children come after their parents, in pairs in the order of the parents.
+    size_t child = tasks.size();
+    for (size_t i = tasks.size(); i-- > 0;) {
+      if (tasks[i].end - tasks[i].begin <= kSubtreeSize) continue;
+      child -= 2;
+      clusters[i] = clusters[child];
+      clusters[i].add(clusters[child + 1]);
+      store(clusters[i], static_cast<uint32_t>(tasks[child + 1].node), tasks[i].node);
+    }
+  }
+};
+
+EmitterTree::EmitterTree(std::span<const TreeLight> lights) {
+  paths_.assign(lights.size(), kAbsent);
+  Builder builder{lights, nodes_, paths_, {}};
+  for (size_t i = 0; i < lights.size(); ++i) {
+    if (lights[i].intensity > 0) builder.order.push_back(static_cast<uint32_t>(i));
+  }
+  if (!builder.order.empty()) nodes_.resize(2 * builder.order.size() - 1);
+  builder.buildAll();
+}
+
+// [Conty18, section 5]: intensity times the largest cosines that the box allows, over the squared
+// distance, which is not let below the box's radius: inside a cluster nothing is known of where
+// its emitters are.
+float EmitterTree::importance(const Node& node, Vec3f p, Vec3f n) {
+  const Vec3f lo(node.lo[0], node.lo[1], node.lo[2]), hi(node.hi[0], node.hi[1], node.hi[2]);
+  const Vec3f toCentre = (lo + hi) * 0.5f - p;
+  const float radius2 = 0.25f * lengthSquared(hi - lo);
+  const float d2 = lengthSquared(toCentre);
+  const float intensity = node.intensity / std::max(std::max(d2, radius2), 1e-30f);
+  if (d2 <= radius2) return intensity;
+  const Vec3f w = toCentre / std::sqrt(d2);
+  const float sinBox2 = radius2 / d2;
+  const Angle box{std::sqrt(1 - sinBox2), std::sqrt(sinBox2)};
+  float result = intensity;
+  const float cosO = dequantise(node.cosThetaO);
+  if (cosO > -1) {
+    const Angle axis = fromCosine(-dot(decodeAxis(node.axisX, node.axisY), w));
+    const Angle leaving = minus(minus(axis, fromCosine(cosO)), box);
+    // A little slack for the quantised cone.
+    if (leaving.cosine <= dequantise(node.cosThetaE) - 1e-3f) return 0;
+    result *= std::max(leaving.cosine, 1e-3f);
+  }
+  if (n != Vec3f{}) result *= std::max(0.f, minus(fromCosine(dot(n, w)), box).cosine);
+  return result;
+}
+
+std::optional<EmitterTree::Choice> EmitterTree::sample(Vec3f p, Vec3f n, double u) const {
+  if (nodes_.empty()) return std::nullopt;
+  size_t node = 0;
+  double probability = 1;
+  while (!(nodes_[node].next & kLeafBit)) {
+    const double left = importance(nodes_[node + 1], p, n);
+    const double right = importance(nodes_[nodes_[node].next], p, n);
+    if (!(left + right > 0)) return std::nullopt;
+    const double share = left / (left + right);
+    if (u < share) {
+      u = std::min(u / share, 0x1.fffffffffffffp-1);
+      probability *= share;
+      node = node + 1;
+    } else {
+      u = std::min((u - share) / (1 - share), 0x1.fffffffffffffp-1);
+      probability *= 1 - share;
+      node = nodes_[node].next;
+    }
+  }
+  return Choice{nodes_[node].next & ~kLeafBit, static_cast<float>(probability)};
+}
+
+float EmitterTree::probability(Vec3f p, Vec3f n, uint32_t light) const {
+  const uint64_t path = paths_[light];
+  if (path == kAbsent) return 0;
+  size_t node = 0;
+  double probability = 1;
+  for (int level = static_cast<int>(std::bit_width(path)) - 2; level >= 0; --level) {
+    const double left = importance(nodes_[node + 1], p, n);
+    const double right = importance(nodes_[nodes_[node].next], p, n);
+    if (!(left + right > 0)) return 0;
+    const double share = left / (left + right);
+    if ((path >> level) & 1) {
+      probability *= 1 - share;
+      node = nodes_[node].next;
+    } else {
+      probability *= share;
+      node = node + 1;
+    }
+    if (probability == 0) return 0;
+  }
+  return static_cast<float>(probability);
+}
+
+std::vector<float> EmitterTree::probabilities(Vec3f p, Vec3f n) const {
+  std::vector<float> result(paths_.size(), 0.f);
+  struct Entry {
+    size_t node;
+    double probability;
+  };
+  std::vector<Entry> stack;
+  if (!nodes_.empty()) stack.push_back({0, 1});
+  while (!stack.empty()) {
+    const Entry entry = stack.back();
+    stack.pop_back();
+    const Node& node = nodes_[entry.node];
+    if (node.next & kLeafBit) {
+      result[node.next & ~kLeafBit] = static_cast<float>(entry.probability);
+      continue;
+    }
+    const double left = importance(nodes_[entry.node + 1], p, n);
+    const double right = importance(nodes_[node.next], p, n);
+    if (!(left + right > 0)) continue;
+    stack.push_back({entry.node + 1, entry.probability * left / (left + right)});
+    stack.push_back({node.next, entry.probability * right / (left + right)});
+  }
+  return result;
+}
+
+size_t EmitterTree::bytes() const {
+  return nodes_.size() * sizeof(Node) + paths_.size() * sizeof(uint64_t);
+}
+
+}  // namespace lobelia

@@ -1,0 +1,423 @@
+// Shapes are sampled as Mitsuba 3 samples them: triangles uniformly by area, spheres by the cone
+// they subtend, so that the variance is comparable image by image.
+//
+// A sphere is sampled on the true surface although rays meet a tessellation of it. The shadow ray
+// ends before the tessellation begins; a hit outside of the true cone has density zero.
+#include "lobelia/path/finite_lights.h"
+
+#include "lobelia/base/parallel.h"
+
+namespace lobelia {
+namespace {
+
+// Rounding of world coordinates, relative; offsetOrigin() moves by about this much.
+constexpr float kRelativeError = 4e-7f;
+
+float errorOf(Vec3f p) {
+  return kRelativeError * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1e-6f});
+}
+
+// The factor of a similarity, or nothing for any other transform.
+std::optional<float> uniformScale(const Mat4& m) {
+  Vec3d c[3];
+  for (size_t i = 0; i < 3; ++i) c[i] = {m.m[0][i], m.m[1][i], m.m[2][i]};
+  const double s = dot(c[0], c[0]), tolerance = 1e-5 * s;
+  if (!(s > 0)) return std::nullopt;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(dot(c[i], c[i]) - s) > tolerance) return std::nullopt;
+    if (std::abs(dot(c[i], c[(i + 1) % 3])) > tolerance) return std::nullopt;
+  }
+  return static_cast<float>(std::sqrt(s));
+}
+
+float outerRadius(const Mesh& mesh) {
+  float r2 = 1;
+  for (const Vec3f& p : mesh.positions) r2 = std::max(r2, lengthSquared(p));
+  return std::sqrt(r2) * 1.00001f;
+}
+
+bool masked(const Scene& scene, const Instance& instance) {
+  return instance.material.valid() && hasOpacity(scene, instance.material);
+}
+
+}  // namespace
+
+FiniteLights::FiniteLights(const Scene& scene) : scene_(scene) {
+  firstLight_.assign(scene.instances.size(), kNone);
+  instanceArea_.assign(scene.instances.size(), 0);
+  std::vector<uint32_t> sphereInstances;
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    if (!instance.emitter.valid() || scene[instance.emitter].type != EmitterType::area) continue;
+    const Mesh& mesh = scene[instance.mesh];
+    if (mesh.triangles.empty()) continue;
+    ++emitterCount_;
+    // Spheres that emit inwards, or with a texture or mask (whose coordinates are the
+    // tessellation's), are sampled as the triangles that they are.
+    const auto scale = uniformScale(instance.toWorld.to);
+    if (mesh.isUnitSphere && scale && !instance.flipNormals && !masked(scene, instance) &&
+        !scene[instance.emitter].radiance.texture.valid()) {
+      SphereLight sphere;
+      sphere.centre = instance.toWorld.point({});
+      sphere.radius = *scale;
+      sphere.outer = *scale * outerRadius(mesh);
+      sphere.instance = i;
+      spheres_.push_back(sphere);
+    } else {
+      addInstance(i);
+    }
+  }
+  for (uint32_t s = 0; s < spheres_.size(); ++s) {
+    firstLight_[spheres_[s].instance] = firstSphere() + s;
+  }
+  for (uint32_t e = 0; e < scene.emitters.size(); ++e) {
+    const EmitterType type = scene.emitters[e].type;
+    if (type == EmitterType::point || type == EmitterType::spot || type == EmitterType::projector) {
+      addPoint(e);
+    }
+  }
+}
+
+void FiniteLights::addInstance(uint32_t index) {
+  const Instance& instance = scene_.instances[index];
+  const Mesh& mesh = scene_[instance.mesh];
+  const size_t first = triangles_.size();
+  firstLight_[index] = static_cast<uint32_t>(first);
+  triangles_.resize(first + mesh.triangles.size());
+  parallelFor(mesh.triangles.size(), 1024, [&](size_t t) {
+    const Vec3u v = mesh.triangles[t];
+    TriangleLight& light = triangles_[first + t];
+    light.p0 = instance.toWorld.point(mesh.positions[v.x]);
+    light.e1 = instance.toWorld.point(mesh.positions[v.y]) - light.p0;
+    light.e2 = instance.toWorld.point(mesh.positions[v.z]) - light.p0;
+    light.instance = index;
+    light.triangle = static_cast<uint32_t>(t);
+    const float area = 0.5f * length(cross(light.e1, light.e2));
+    if (!(area > 0) || !std::isfinite(area)) return;
+    light.area = area;
+    // Which side is outside (winding, mirrored transforms, flipped normals) is surfacePoint()'s.
+    const SurfacePoint at = surfacePoint(scene_, {0, 1 / 3.f, 1 / 3.f, index, light.triangle});
+    if (dot(light.normal(), at.ng) < 0) light.side = -1;
+  });
+  double area = 0;
+  for (size_t t = first; t < triangles_.size(); ++t)
+    area += static_cast<double>(triangles_[t].area);
+  instanceArea_[index] = static_cast<float>(area);
+}
+
+void FiniteLights::addPoint(uint32_t index) {
+  const Emitter& emitter = scene_.emitters[index];
+  PointLight light;
+  light.emitter = index;
+  light.position = emitter.toWorld.point({});
+  for (size_t r = 0; r < 3; ++r) {
+    const auto& to = emitter.toWorld.to.m[r];
+    const auto& from = emitter.toWorld.from.m[r];
+    light.rows[r] = {static_cast<float>(to[0]), static_cast<float>(to[1]),
+                     static_cast<float>(to[2])};
+    light.inverseRows[r] = {static_cast<float>(from[0]), static_cast<float>(from[1]),
+                            static_cast<float>(from[2])};
+  }
+  light.axis = normalize(emitter.toWorld.vector({0, 0, 1}));
+  const Rgb value = mean(scene_, emitter.radiance);
+  if (emitter.type == EmitterType::point) {
+    light.peak = luminance(value);
+  } else if (emitter.type == EmitterType::spot) {
+    light.cosCutoff = std::cos(emitter.cutoff);
+    light.cosBeam = std::cos(std::min(emitter.beamWidth, emitter.cutoff));
+    light.tanX = light.tanY = std::tan(emitter.cutoff);
+    Rgb factor(1.f);
+    if (emitter.pattern.valid()) factor = mean(scene_, ColorParam(emitter.pattern));
+    light.peak = luminance(value * factor);
+  } else {
+    // Pixels are square: the picture's shape is that of its bitmap.
+    float aspect = 1;
+    int nx = 1, ny = 1;
+    TextureHandle texture = emitter.radiance.texture;
+    while (texture.valid() && scene_[texture].type == TextureType::scale)
+      texture = scene_[texture].a;
+    if (texture.valid() && scene_[texture].image.valid()) {
+      const Image& image = scene_[scene_[texture].image];
+      aspect = static_cast<float>(image.width) / static_cast<float>(image.height);
+      nx = std::clamp(image.width, 1, 1024), ny = std::clamp(image.height, 1, 1024);
+    }
+    light.tanX = std::tan(0.5f * emitter.fov);
+    light.tanY = light.tanX / aspect;
+    light.cosCutoff = 1 / std::sqrt(1 + light.tanX * light.tanX + light.tanY * light.tanY);
+    light.cosBeam = light.cosCutoff;
+    std::vector<float> weights(static_cast<size_t>(nx) * static_cast<size_t>(ny));
+    for (int y = 0; y < ny; ++y) {
+      for (int x = 0; x < nx; ++x) {
+        TextureContext at;
+        at.uv = {(static_cast<float>(x) + 0.5f) / static_cast<float>(nx),
+                 (static_cast<float>(y) + 0.5f) / static_cast<float>(ny)};
+        weights[static_cast<size_t>(y) * static_cast<size_t>(nx) + static_cast<size_t>(x)] =
+            luminance(evaluate(scene_, emitter.radiance, at)) + 0.05f * luminance(value) + 1e-20f;
+      }
+    }
+    light.film = Distribution2D(weights, nx, ny);
+    light.peak = kPi * emitter.scale * luminance(value) / (light.cosCutoff * light.cosCutoff);
+  }
+  points_.push_back(std::move(light));
+  ++emitterCount_;
+}
+
+Rgb FiniteLights::radiance(const TriangleLight& light, float b1, float b2) const {
+  const Instance& instance = scene_.instances[light.instance];
+  const ColorParam& value = scene_[instance.emitter].radiance;
+  const bool mask = masked(scene_, instance);
+  if (!value.texture.valid() && !mask) return value.value;
+  const Mesh& mesh = scene_[instance.mesh];
+  TextureContext at;
+  at.mesh = &mesh;
+  at.triangle = light.triangle;
+  at.barycentrics = {b1, b2};
+  at.uv = at.barycentrics;
+  if (!mesh.uvs.empty()) {
+    const Vec3u v = mesh.triangles[light.triangle];
+    at.uv = mesh.uvs[v.x] * (1 - b1 - b2) + mesh.uvs[v.y] * b1 + mesh.uvs[v.z] * b2;
+  }
+  const Rgb radiance = evaluate(scene_, value, at);
+  return mask ? radiance * opacity(scene_, instance.material, at) : radiance;
+}
+
+Rgb FiniteLights::radiance(const SphereLight& light) const {
+  return scene_[scene_.instances[light.instance].emitter].radiance.value;
+}
+
+// Luminance; for textures from a few points, never below a part of the texture's mean.
+float FiniteLights::meanRadiance(const TriangleLight& light) const {
+  const Instance& instance = scene_.instances[light.instance];
+  const ColorParam& value = scene_[instance.emitter].radiance;
+  if (!value.texture.valid()) return std::max(0.f, luminance(value.value));
+  static constexpr float kPoints[7][2] = {{1 / 3.f, 1 / 3.f}, {0.1f, 0.1f},   {0.8f, 0.1f},
+                                          {0.1f, 0.8f},       {0.45f, 0.45f}, {0.1f, 0.45f},
+                                          {0.45f, 0.1f}};
+  float sum = 0;
+  for (const auto& b : kPoints) sum += std::max(0.f, luminance(radiance(light, b[0], b[1])));
+  return std::max(sum / 7, 0.1f * std::max(0.f, luminance(mean(scene_, value))));
+}
+
+std::vector<float> FiniteLights::uniformWeights() const {
+  std::vector<float> weights(size(), 1.f);
+  for (size_t i = 0; i < triangles_.size(); ++i) {
+    const float total = instanceArea_[triangles_[i].instance];
+    weights[i] = total > 0 ? triangles_[i].area / total : 0.f;
+  }
+  return weights;
+}
+
+std::vector<float> FiniteLights::fluxes() const {
+  std::vector<float> result(size(), 0.f);
+  parallelFor(triangles_.size(), 4096, [&](size_t i) {
+    if (triangles_[i].area > 0) result[i] = kPi * triangles_[i].area * meanRadiance(triangles_[i]);
+  });
+  for (size_t i = 0; i < spheres_.size(); ++i) {
+    const float r = spheres_[i].radius;
+    result[firstSphere() + i] =
+        4 * kPi * kPi * r * r * std::max(0.f, luminance(radiance(spheres_[i])));
+  }
+  for (size_t i = 0; i < points_.size(); ++i) {
+    const PointLight& light = points_[i];
+    // A spot's linear fall-off is taken half way.
+    const float solidAngle = kTwoPi * (1 - 0.5f * (light.cosCutoff + light.cosBeam));
+    const bool projector = scene_.emitters[light.emitter].type == EmitterType::projector;
+    result[firstPoint() + i] =
+        projector ? light.peak * light.cosCutoff * light.cosCutoff * 4 * light.tanX * light.tanY
+                  : light.peak * (light.cosCutoff <= -1 ? 4 * kPi : solidAngle);
+  }
+  return result;
+}
+
+std::vector<TreeLight> FiniteLights::treeLights() const {
+  std::vector<TreeLight> result(size());
+  parallelFor(triangles_.size(), 4096, [&](size_t i) {
+    const TriangleLight& light = triangles_[i];
+    if (!(light.area > 0)) return;
+    TreeLight& out = result[i];
+    for (const Vec3f p : {light.p0, light.p0 + light.e1, light.p0 + light.e2}) out.bounds.add(p);
+    out.axis = light.normal();
+    out.intensity = light.area * meanRadiance(light);
+  });
+  for (size_t i = 0; i < spheres_.size(); ++i) {
+    TreeLight& out = result[firstSphere() + i];
+    const float r = spheres_[i].radius;
+    out.bounds.add(spheres_[i].centre - Vec3f(r));
+    out.bounds.add(spheres_[i].centre + Vec3f(r));
+    out.cosThetaO = -1;
+    out.intensity = kPi * r * r * std::max(0.f, luminance(radiance(spheres_[i])));
+  }
+  for (size_t i = 0; i < points_.size(); ++i) {
+    TreeLight& out = result[firstPoint() + i];
+    const PointLight& light = points_[i];
+    out.bounds.add(light.position);
+    out.axis = light.axis;
+    out.cosThetaO = light.cosCutoff;
+    out.cosThetaE = 1;
+    out.intensity = std::max(0.f, light.peak);
+  }
+  return result;
+}
+
+uint32_t FiniteLights::emitter(uint32_t light) const {
+  if (isPoint(light)) return points_[light - firstPoint()].emitter;
+  const uint32_t instance =
+      light < firstSphere() ? triangles_[light].instance : spheres_[light - firstSphere()].instance;
+  return scene_.instances[instance].emitter.index;
+}
+
+// Mitsuba 3's spot (linear in the angle, picture over the tangent plane of the cutoff) and
+// projector (irradiance pi times the picture on the plane at distance one, square pixels).
+Rgb FiniteLights::intensity(const PointLight& light, Vec3f local) const {
+  const Emitter& emitter = scene_.emitters[light.emitter];
+  TextureContext at;
+  if (emitter.type == EmitterType::point) return evaluate(scene_, emitter.radiance, at);
+  const float len = length(local);
+  const float cosine = local.z / len;
+  if (emitter.type == EmitterType::spot) {
+    if (!(cosine > light.cosCutoff)) return {};
+    float falloff = 1;
+    if (cosine < light.cosBeam) {
+      falloff = (emitter.cutoff - std::acos(cosine)) / (emitter.cutoff - emitter.beamWidth);
+    }
+    Rgb value = evaluate(scene_, emitter.radiance, at) * falloff;
+    if (emitter.pattern.valid()) {
+      at.uv = {0.5f + 0.5f * local.x / (local.z * light.tanX),
+               0.5f + 0.5f * local.y / (local.z * light.tanY)};
+      value *= evaluate(scene_, emitter.pattern, at);
+    }
+    return value;
+  }
+  if (!(cosine > 0)) return {};
+  at.uv = {0.5f - 0.5f * local.x / (local.z * light.tanX),
+           0.5f - 0.5f * local.y / (local.z * light.tanY)};
+  if (at.uv.x < 0 || at.uv.x > 1 || at.uv.y < 0 || at.uv.y > 1) return {};
+  return evaluate(scene_, emitter.radiance, at) *
+         (kPi * emitter.scale / (cosine * cosine * cosine));
+}
+
+Vec3f FiniteLights::offset(const TriangleLight& light, Vec3f p, Vec3f n, Vec3f towards) const {
+  const float error = std::max({errorOf(light.p0), errorOf(light.e1), errorOf(light.e2)});
+  return offsetOrigin(p, n, error, towards);
+}
+
+std::optional<LightSample> FiniteLights::sample(uint32_t light, Vec3f p, Vec2f u) const {
+  LightSample result;
+  if (light < firstSphere()) {
+    const TriangleLight& triangle = triangles_[light];
+    const Vec2f b = sampleTriangleUniform(u);
+    const Vec3f at = triangle.p0 + triangle.e1 * b.x + triangle.e2 * b.y;
+    const Vec3f n = triangle.normal();
+    const Vec3f to = at - p;
+    const float d2 = lengthSquared(to);
+    result.distance = std::sqrt(d2);
+    result.wi = to / result.distance;
+    const float cosine = -dot(n, result.wi);
+    if (!(cosine > 0) || !(d2 > 0)) return std::nullopt;
+    result.target = offset(triangle, at, n, -result.wi);
+    result.value = radiance(triangle, b.x, b.y);
+    result.pdf = d2 / (cosine * triangle.area);
+    return result;
+  }
+  if (light < firstPoint()) {
+    const SphereLight& sphere = spheres_[light - firstSphere()];
+    const Vec3f to = sphere.centre - p;
+    const float d2 = lengthSquared(to), sin2 = sphere.radius * sphere.radius / d2;
+    if (!(sin2 < 1)) return std::nullopt;  // inside: nothing is emitted inwards
+    const float oneMinusCos = sin2 / (1 + std::sqrt(1 - sin2));
+    const Vec3f local = sampleConeUniform(u, oneMinusCos);
+    result.wi = frameFromNormal(to / std::sqrt(d2)).toWorld(local);
+    result.pdf = 1 / (kTwoPi * oneMinusCos);
+    result.value = radiance(sphere);
+    // Where the ray enters the outer sphere; a point between the two spheres sees it at once.
+    const float along = dot(to, result.wi);
+    const float half2 = sphere.outer * sphere.outer - lengthSquared(cross(to, result.wi));
+    result.distance = std::max(0.f, along - std::sqrt(std::max(half2, 0.f)));
+    result.target = p + result.wi * result.distance;
+    return result;
+  }
+  const PointLight& point = points_[light - firstPoint()];
+  const Vec3f to = point.position - p;
+  const float d2 = lengthSquared(to);
+  if (!(d2 > 0)) return std::nullopt;
+  result.distance = std::sqrt(d2);
+  result.wi = to / result.distance;
+  result.target = point.position;
+  const Vec3f local{-dot(point.inverseRows[0], result.wi), -dot(point.inverseRows[1], result.wi),
+                    -dot(point.inverseRows[2], result.wi)};
+  result.value = intensity(point, local) / d2;
+  if (result.value == Rgb{}) return std::nullopt;
+  return result;
+}
+
+std::optional<uint32_t> FiniteLights::lightOf(const SurfacePoint& hit) const {
+  const uint32_t first = firstLight_[hit.instance];
+  if (first == kNone) return std::nullopt;
+  return first < firstSphere() ? first + hit.texture.triangle : first;
+}
+
+float FiniteLights::pdf(uint32_t light, Vec3f p, const SurfacePoint& hit, Vec3f wi) const {
+  if (light < firstSphere()) {
+    const TriangleLight& triangle = triangles_[light];
+    const float cosine = -dot(hit.ng, wi);
+    if (!(cosine > 0) || !(triangle.area > 0)) return 0;
+    return lengthSquared(hit.p - p) / (cosine * triangle.area);
+  }
+  const SphereLight& sphere = spheres_[light - firstSphere()];
+  const Vec3f to = sphere.centre - p;
+  const float d2 = lengthSquared(to), sin2 = sphere.radius * sphere.radius / d2;
+  if (!(sin2 < 1)) return 0;
+  const float along = dot(to, wi);
+  if (along <= 0 || lengthSquared(cross(to, wi)) > sphere.radius * sphere.radius) return 0;
+  return (1 + std::sqrt(1 - sin2)) / (kTwoPi * sin2);
+}
+
+EmittedRay FiniteLights::sampleRay(uint32_t light, Vec2f uPosition, Vec2f uDirection) const {
+  EmittedRay out;
+  out.emitter = emitter(light);
+  if (light < firstPoint()) {
+    Vec3f at;
+    if (light < firstSphere()) {
+      const TriangleLight& triangle = triangles_[light];
+      const Vec2f b = sampleTriangleUniform(uPosition);
+      at = triangle.p0 + triangle.e1 * b.x + triangle.e2 * b.y;
+      out.ng = triangle.normal();
+      out.power = radiance(triangle, b.x, b.y) * (kPi * triangle.area);
+    } else {
+      const SphereLight& sphere = spheres_[light - firstSphere()];
+      out.ng = sampleSphereUniform(uPosition);
+      at = sphere.centre + out.ng * sphere.outer;
+      out.power = radiance(sphere) * (4 * kPi * kPi * sphere.radius * sphere.radius);
+    }
+    out.ray.d = frameFromNormal(out.ng).toWorld(sampleHemisphereCosine(uDirection));
+    const float error = errorOf(at);
+    out.ray.o = light < firstSphere() ? offset(triangles_[light], at, out.ng, out.ray.d)
+                                      : offsetOrigin(at, out.ng, error, out.ray.d);
+    return out;
+  }
+  const PointLight& point = points_[light - firstPoint()];
+  const Emitter& source = scene_.emitters[point.emitter];
+  Vec3f local;
+  float weight = 1;  // 1 / pdf of the direction, solid angle
+  if (source.type == EmitterType::point) {
+    local = sampleSphereUniform(uDirection);
+    weight = 4 * kPi;
+  } else if (source.type == EmitterType::spot) {
+    const float oneMinusCos = 1 - point.cosCutoff;
+    local = sampleConeUniform(uDirection, oneMinusCos);
+    weight = kTwoPi * oneMinusCos;
+  } else {
+    float pdf;
+    const Vec2f uv = point.film.sample(uDirection, &pdf);
+    local = normalize(Vec3f{(1 - 2 * uv.x) * point.tanX, (1 - 2 * uv.y) * point.tanY, 1});
+    weight = 4 * point.tanX * point.tanY * local.z * local.z * local.z / pdf;
+  }
+  out.power = intensity(point, local) * weight;
+  out.ray.d = normalize(
+      Vec3f{dot(point.rows[0], local), dot(point.rows[1], local), dot(point.rows[2], local)});
+  out.ray.o = point.position;
+  out.ng = out.ray.d;
+  return out;
+}
+
+}  // namespace lobelia
