@@ -1,0 +1,227 @@
+// The program as a user types it: results, messages and exit codes of the contract.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "lobelia/io/image_io.h"
+#include "support/run_program.h"
+
+namespace lobelia {
+namespace {
+
+using test::ProgramResult;
+using test::runProgram;
+using test::TemporaryFolder;
+
+const char* kSmall = "render cornell --detail 0.1 --size 24x24 --quiet ";
+
+// Whatever was missing or wrong: one line that names it, the contract's code, nothing written.
+void expectFailure(const std::string& arguments, int code, const std::string& mentions) {
+  const ProgramResult r = runProgram(arguments);
+  EXPECT_EQ(r.exitCode, code) << arguments << "\n" << r.err;
+  EXPECT_NE(r.err.find(mentions), std::string::npos) << arguments << "\nsaid: " << r.err;
+  EXPECT_EQ(r.err.find('\033'), std::string::npos) << "control codes without a terminal";
+}
+
+TEST(CommandLine, HelpVersionAndMethods) {
+  EXPECT_EQ(runProgram("--help").exitCode, 0);
+  EXPECT_NE(runProgram("--version").out.find("lobelia 0."), std::string::npos);
+  const ProgramResult methods = runProgram("methods");
+  EXPECT_EQ(methods.exitCode, 0);
+  EXPECT_NE(methods.out.find("glossy"), std::string::npos);
+}
+
+TEST(CommandLine, WrongUsageIsTwo) {
+  expectFailure("", 2, "subcommand");
+  expectFailure("rendr x", 2, "");
+  expectFailure("render cornell", 2, "--output");
+  const TemporaryFolder folder;
+  const std::string out = " -o " + (folder / "a.exr");
+  expectFailure("render cornell --lights glosy" + out, 2, "did you mean 'glossy'");
+  expectFailure("render cornell --gather sglcc" + out, 2, "--gather");
+  expectFailure("render cornell --spp 0" + out, 2, "--spp");
+  expectFailure("render cornell --spp -3" + out, 2, "--spp");
+  expectFailure("render cornell --spp 1e99" + out, 2, "--spp");
+  expectFailure("render cornell --size 0x10" + out, 2, "--size");
+  expectFailure("render cornell --size 10" + out, 2, "--size");
+  expectFailure("render cornell --size 99999999x10" + out, 2, "--size");
+  expectFailure("render cornell --crop 5,5,2,9" + out, 2, "--crop");
+  expectFailure("render cornell --camera nobody" + out, 2, "--camera");
+  expectFailure("render cornell --aov albeda" + out, 2, "albedo");
+  expectFailure("render cornell --clamp -1" + out, 2, "--clamp");
+  expectFailure("render cornell --nonsense" + out, 2, "--nonsense");
+  expectFailure("render cornell -o " + (folder / "no/such/folder.exr"), 2, "folder");
+  expectFailure("render cornell -o " + (folder / "a.bmp"), 2, ".exr");
+  expectFailure("scene nowhere -o " + (folder / "x"), 2, "cornell");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(CommandLine, BadInputIsThree) {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + (folder / "a.exr");
+  expectFailure("render " + (folder / "missing.xml") + out, 3, "missing.xml");
+  expectFailure("info " + (folder / "missing.xml"), 3, "missing.xml");
+  test::writeText(folder / "scene.blend", "x");
+  expectFailure("render " + (folder / "scene.blend") + out, 3, "scene.blend");
+  test::writeText(folder / "cut.xml", "<scene version='3.0.0'>\n<shape type='sphere'>\n");
+  expectFailure("render " + (folder / "cut.xml") + out, 3, "cut.xml:");
+  test::writeText(
+      folder / "unknown.xml",
+      "<scene version='3.0.0'>\n  <sensor type='perspective'/>\n  <shape type='spere'/>\n</scene>");
+  expectFailure("render " + (folder / "unknown.xml") + out, 3, "unknown.xml:3");
+  expectFailure("render " + (folder / "unknown.xml") + out, 3, "'sphere'");
+  expectFailure("compare " + (folder / "a.exr") + " " + (folder / "b.exr"), 3, "a.exr");
+  test::writeText(folder / "broken.exr", "not an image");
+  expectFailure("compare " + (folder / "broken.exr") + " " + (folder / "broken.exr"), 3,
+                "broken.exr");
+  test::writeText(folder / "lights.bin", "not lights");
+  expectFailure(std::string(kSmall) + out + " --load-lights " + (folder / "lights.bin"), 3,
+                "lights.bin");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
+}
+
+TEST(CommandLine, DiskFullIsOneAndLeavesNothing) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "skipped: no /dev/full";
+  const TemporaryFolder folder;
+  const ProgramResult r =
+      runProgram(std::string(kSmall) + "--spp 1 --num-lights 10 -o /dev/full.exr");
+  // /dev is a folder that cannot hold regular files for most users; as root it can.
+  EXPECT_TRUE(r.exitCode == 0 || r.exitCode == 1 || r.exitCode == 2) << r.err;
+  std::filesystem::remove("/dev/full.exr");
+}
+
+TEST(CommandLine, RenderWritesPicturesAovsStatisticsAndMetadata) {
+  const TemporaryFolder folder;
+  const ProgramResult r =
+      runProgram(std::string(kSmall) +
+                 "--spp 2 --num-lights 100 --aov "
+                 "albedo,normal,depth,direct,indirect,specular,variance --stats " +
+                 (folder / "s.json") + " -o " + (folder / "a.exr") + " -o " + (folder / "a.png"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_EQ(r.err, "");
+  const Film film = io::readFilm(folder / "a.exr");
+  EXPECT_EQ(film.width, 24);
+  for (const char* layer :
+       {"", "albedo", "normal", "depth", "direct", "indirect", "specular", "variance"}) {
+    EXPECT_TRUE(film.layers.contains(layer)) << layer;
+  }
+  EXPECT_EQ(countNonFinite(film), 0u);
+  for (size_t i = 0; i < film.pixelCount(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(film.rgb(i)[c], film.rgb(i, "direct")[c] + film.rgb(i, "indirect")[c],
+                  1e-5f + 1e-5f * film.rgb(i)[c]);
+    }
+  }
+  EXPECT_TRUE(film.metadata.contains("lobelia:command"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
+  const auto stats = nlohmann::json::parse(test::readText(folder / "s.json"));
+  for (const char* key :
+       {"version", "scene", "lights", "gather", "receivers", "seconds", "counts", "memory"}) {
+    EXPECT_TRUE(stats.contains(key)) << key;
+  }
+  EXPECT_GT(stats["counts"]["shadow_rays"], 0);
+  EXPECT_LE(stats["memory"]["bytes_per_light"], 52.0);
+  EXPECT_GT(stats["receivers"]["diffuse"], 0);
+  EXPECT_GT(stats["receivers"]["glossy"], 0);
+}
+
+TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
+  const TemporaryFolder folder;
+  for (const char* method : {"path", "light", "glossy", "vpl"}) {
+    const auto render = [&](int threads, const char* seed) {
+      const std::string file =
+          folder / (std::string(method) + std::to_string(threads) + seed + ".exr");
+      const ProgramResult r =
+          runProgram(std::string(kSmall) + "--spp 2 --num-lights 200 --lights " + method +
+                     " --threads " + std::to_string(threads) + " --seed " + seed + " -o " + file);
+      EXPECT_EQ(r.exitCode, 0) << r.err;
+      return io::readFilm(file).layers.at("").values;
+    };
+    const auto one = render(1, "7");
+    EXPECT_EQ(one, render(2, "7")) << method;
+    EXPECT_EQ(one, render(5, "7")) << method;
+    EXPECT_NE(one, render(2, "8")) << method;
+  }
+}
+
+TEST(CommandLine, SavedLightsGiveTheSamePictureAndRefuseAnotherScene) {
+  const TemporaryFolder folder;
+  const std::string small = std::string(kSmall) + "--spp 1 --num-lights 100 ";
+  ASSERT_EQ(
+      runProgram(small + "--save-lights " + (folder / "l") + " -o " + (folder / "a.exr")).exitCode,
+      0);
+  ASSERT_EQ(
+      runProgram(small + "--load-lights " + (folder / "l") + " -o " + (folder / "b.exr")).exitCode,
+      0);
+  EXPECT_EQ(io::readFilm(folder / "a.exr").layers.at("").values,
+            io::readFilm(folder / "b.exr").layers.at("").values);
+  expectFailure("render cornell --detail 0.2 --size 8x8 --quiet --load-lights " + (folder / "l") +
+                    " -o " + (folder / "c.exr"),
+                3, "scene");
+  expectFailure(
+      small + "--lights vpl --load-lights " + (folder / "l") + " -o " + (folder / "c.exr"), 3,
+      "glossy");
+  EXPECT_FALSE(std::filesystem::exists(folder / "c.exr"));
+}
+
+TEST(CommandLine, PixelsAndCropAgreeWithTheWholePicture) {
+  const TemporaryFolder folder;
+  for (const std::string method : {"path", "glossy"}) {
+    const std::string small =
+        std::string(kSmall) + "--spp 2 --num-lights 50 --lights " + method + " ";
+    ASSERT_EQ(runProgram(small + "-o " + (folder / "all.exr")).exitCode, 0);
+    ASSERT_EQ(runProgram(small + "--pixels 40 -o " + (folder / "some.exr")).exitCode, 0);
+    const Film all = io::readFilm(folder / "all.exr"), some = io::readFilm(folder / "some.exr");
+    ASSERT_EQ(some.alpha.size(), all.pixelCount());
+    size_t present = 0;
+    for (size_t i = 0; i < all.pixelCount(); ++i) {
+      if (some.alpha[i] == 0) continue;
+      ++present;
+      EXPECT_EQ(some.rgb(i), all.rgb(i)) << method << " pixel " << i;
+    }
+    EXPECT_EQ(present, 40u);
+    const ProgramResult r =
+        runProgram("compare " + (folder / "some.exr") + " " + (folder / "all.exr") + " --json");
+    EXPECT_EQ(nlohmann::json::parse(r.out)["rmse"], 0.0);
+    EXPECT_TRUE(nlohmann::json::parse(r.out)["flip"].is_null());
+    ASSERT_EQ(runProgram(small + "--crop 4,6,14,12 -o " + (folder / "crop.exr")).exitCode, 0);
+    const Film crop = io::readFilm(folder / "crop.exr");
+    EXPECT_EQ(crop.fullWidth, 24);
+    EXPECT_EQ(crop.x0, 4);
+    EXPECT_EQ(crop.width, 10);
+    EXPECT_EQ(crop.height, 6);
+  }
+}
+
+TEST(CommandLine, InterruptWritesWhatThereIs) {
+  const TemporaryFolder folder;
+  for (const auto& [signal, code] : {std::pair{"INT", 130}, std::pair{"TERM", 143}}) {
+    const std::string file = folder / (std::string(signal) + ".exr");
+    const std::string command =
+        "timeout -s " + std::string(signal) + " --preserve-status 3 " + LOBELIA_PROGRAM +
+        " render cornell --detail 0.1 --size 64x64 --lights path --spp 10000000 --quiet -o " + file;
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), code);
+    const Film film = io::readFilm(file);
+    EXPECT_EQ(countNonFinite(film), 0u);
+    double sum = 0;
+    for (size_t i = 0; i < film.pixelCount(); ++i) sum += luminance(film.rgb(i));
+    EXPECT_GT(sum, 0);
+  }
+}
+
+TEST(CommandLine, SceneRoundTripRendersTheSame) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(runProgram("scene cornell --detail 0.1 --quiet -o " + (folder / "scene")).exitCode, 0);
+  const std::string options = " --size 16x16 --spp 2 --lights path --quiet -o ";
+  ASSERT_EQ(runProgram("render cornell --detail 0.1" + options + (folder / "a.exr")).exitCode, 0);
+  const ProgramResult r =
+      runProgram("render " + (folder / "scene/scene.xml") + options + (folder / "b.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const ProgramResult c =
+      runProgram("compare " + (folder / "a.exr") + " " + (folder / "b.exr") + " --json");
+  EXPECT_LT(nlohmann::json::parse(c.out)["l2"], 1e-3);
+}
+
+}  // namespace
+}  // namespace lobelia
