@@ -9,9 +9,9 @@
 namespace lobelia {
 
 struct GatherSettings {
-  float clamp = 0;          // upper limit of geometry term x light lobe x receiver lobe; 0: off
+  float clamp = 0;  // upper limit of geometry term x light lobe x receiver lobe; 0: off
   int maxDepth = -1;
-  bool direct = false;      // lights of depth 0 (--direct lights) are part of the lights
+  bool direct = false;  // lights of depth 0 (--direct lights) are part of the lights
 };
 
 // Adds to radiance[i] the light that receiver point i sends to its pixel (weight included) from all

@@ -1,0 +1,13 @@
+// Directional pattern of point emitters that became omnidirectional lights.
+#pragma once
+
+#include "lobelia/scene/scene.h"
+
+namespace lobelia::gather {
+
+// Factor to OmniLight::intensity towards `direction` (world space, away from the emitter, any
+// length): falloff and texture of a spot; of a projector pi / cos^3 and its picture (the intensity
+// of a projector with a picture is its scale alone); 1 for others.
+Rgb emissionPattern(const Scene& scene, uint32_t emitter, Vec3f direction);
+
+}  // namespace lobelia::gather

@@ -1,0 +1,56 @@
+// Which receiver points and virtual lights can see each other's front: the tests that decide
+// whether a shadow ray is worth tracing. All are exact: a pair that fails contributes zero.
+#if defined(LOBELIA_GATHER_FACING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LOBELIA_GATHER_FACING_INL_H_
+#undef LOBELIA_GATHER_FACING_INL_H_
+#else
+#define LOBELIA_GATHER_FACING_INL_H_
+#endif
+
+#include "lobelia/base/simd-inl.h"
+#include "lobelia/gather/light_block.h"
+#include "lobelia/gather/tile.h"
+
+LOBELIA_CORE_BEGIN
+
+namespace g = ::lobelia::gather;
+
+HWY_INLINE V3<Vf> load(const g::StripV3& v, size_t lane) {
+  return {Vf::load(v.x + lane), Vf::load(v.y + lane), Vf::load(v.z + lane)};
+}
+HWY_INLINE V3<Vf> broadcast(Vec3f v) { return {Vf(v.x), Vf(v.y), Vf(v.z)}; }
+
+// From the points to the light, not normalised except for directional lights.
+template <g::LightClass kClass>
+HWY_INLINE V3<Vf> toLight(const g::PreparedLight& light, V3<Vf> p) {
+  if constexpr (kClass == g::LightClass::directional) return broadcast(light.p);
+  return broadcast(light.p) - p;
+}
+
+// Does the light send anything along -d?
+template <g::LightClass kClass>
+HWY_INLINE Mf lightFaces(const g::PreparedLight& light, V3<Vf> d) {
+  if constexpr (kClass == g::LightClass::directional) return Vf(0.f) == Vf(0.f);
+  const Vf d2 = dot(d, d);
+  Mf faces = d2 > Vf(0.f);
+  if constexpr (kClass == g::LightClass::diffuse || kClass == g::LightClass::glossy) {
+    faces = faces & (dot(broadcast(light.n), d) < Vf(0.f));
+  }
+  if constexpr (kClass == g::LightClass::glossy) {
+    // cos |cos| > c |c| with cos = -axis.d / |d|: monotone, needs no root.
+    const Vf q = Vf(0.f) - dot(broadcast(light.axis), d);
+    faces = faces & (q * abs(q) > Vf(light.cutoff) * d2);
+  }
+  return faces;
+}
+
+// Can the points scatter light that comes along d towards their wo?
+HWY_INLINE Mf receiverFaces(const g::PointStrip& strip, size_t lane, V3<Vf> d) {
+  const Vf c = dot(load(strip.n, lane), d);
+  const Vf above = Vf::load(strip.above + lane), below = Vf::load(strip.below + lane);
+  return (c * above > Vf(0.f)) | (c * below < Vf(0.f));
+}
+
+LOBELIA_CORE_END
+
+#endif  // per-target include guard

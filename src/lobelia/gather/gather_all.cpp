@@ -1,0 +1,171 @@
+// Brute force: all virtual lights at all receivers, the reference of every other strategy.
+//
+// Receivers are taken in tiles of neighbours (tile.h), lights in blocks; per tile and block, shadow
+// rays are traced in full coherent packets (visibility-inl.h) and visible pairs are shaded in SIMD
+// registers with the exact lobes of the receivers (shading-inl.h).
+//
+// The light of virtual light y at receiver x is
+//   weight * f(x; wo, wi) * V(x, y) * L(y -> x),  f with its cosine,
+//   L = intensity * lobe / d^2: lobe = 1 (omni), [n.w]+ (diffuse), exp(sharpness (axis.w - 1)) for
+//   n.w > 0 (glossy); L = irradiance for directional lights,
+// and with a clamp c > 0 the product (lobe / d^2) * f is scaled so that its largest channel is at
+// most c (one factor for the three, which keeps the hue; the papers clamp grey values [Hasan09
+// section 2]); directional lights have no singularity and are never clamped.
+//
+// The sum at a point runs over the lights in their order, in float within a block of 32 and in
+// double over the blocks: it does not depend on threads, nor on how points share tiles.
+#include <algorithm>
+#include <atomic>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/gather/gather.h"
+#include "lobelia/gather/kernels.h"
+
+namespace lobelia {
+namespace {
+
+using namespace gather;
+
+// Half-open range of lights.
+struct LightRange {
+  size_t begin = 0, end = 0;
+};
+
+// The lights of a class that a receiver of this depth gathers from.
+LightRange rangeForDepth(const VirtualLights& lights, LightClass lightClass,
+                         const GatherSettings& settings, int receiverDepth) {
+  LightRange range;
+  range.begin = settings.direct ? 0 : emitterLightCount(lights, lightClass);
+  range.end = settings.maxDepth < 0
+                  ? lightCount(lights, lightClass)
+                  : lightsUpToDepth(lights, lightClass, settings.maxDepth - 1 - receiverDepth);
+  range.end = std::max(range.begin, range.end);
+  return range;
+}
+
+// Marks the pairs of points and lights that depth allows.
+void allowPairs(const Tile& tile, const LightBlock& block, const VirtualLights& lights,
+                const GatherSettings& settings, PairMasks* pairs) {
+  const size_t count = static_cast<size_t>(block.count);
+  pairs->reset(count, tile.strips.size());
+  for (size_t s = 0; s < tile.strips.size(); ++s) {
+    const PointStrip& strip = tile.strips[s];
+    for (size_t l = 0; l < count; ++l) pairs->at(l, s) = static_cast<uint16_t>(strip.active);
+    if (settings.maxDepth < 0) continue;
+    for (uint32_t lane = 0; lane < kStrip; ++lane) {
+      const size_t end = rangeForDepth(lights, block.lightClass, settings, strip.depth[lane]).end;
+      for (size_t l = end > block.first ? end - block.first : 0; l < count; ++l)
+        pairs->at(l, s) &= static_cast<uint16_t>(~(1u << lane));
+    }
+  }
+}
+
+struct Tally {
+  uint64_t rays = 0, pairs = 0, nonfinite = 0;
+  int64_t visibilityNs = 0, shadeNs = 0;
+};
+
+class TileGather {
+ public:
+  TileGather(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,
+             const GatherSettings& settings, const Context& context)
+      : tracer_(tracer),
+        receivers_(receivers),
+        lights_(lights),
+        settings_(settings),
+        context_(context) {}
+
+  // False when cancelled before the end: then nothing was added to radiance.
+  bool run(size_t begin, size_t end, std::span<Rgb> radiance, Tally* tally) const {
+    const Tile tile = makeTile(receivers_, begin, end);
+    if (tile.strips.empty()) return true;
+    TileSums sums;
+    sums.strips.resize(tile.strips.size());
+    for (const LightClass lightClass : kLightClasses)
+      if (!addClass(tile, lightClass, &sums, tally)) return false;
+    tally->pairs += sums.pairs;
+    tally->nonfinite += sums.nonfinite;
+    for (size_t s = 0; s < tile.strips.size(); ++s) write(tile.strips[s], sums.strips[s], radiance);
+    return true;
+  }
+
+ private:
+  bool addClass(const Tile& tile, LightClass lightClass, TileSums* sums, Tally* tally) const {
+    int smallestDepth = 255;
+    for (const PointStrip& strip : tile.strips)
+      for (const uint8_t depth : strip.depth) smallestDepth = std::min<int>(smallestDepth, depth);
+    const LightRange range = rangeForDepth(lights_, lightClass, settings_, smallestDepth);
+    LightBlock block;
+    PairMasks pairs;
+    for (size_t first = range.begin; first < range.end; first += kBlockLights) {
+      if (context_.cancelled()) return false;
+      prepare(lights_, lightClass, first, std::min(kBlockLights, range.end - first), &block);
+      allowPairs(tile, block, lights_, settings_, &pairs);
+      const int64_t start = nanosecondsNow();
+      tally->rays += keepVisible(tile, block, tracer_, &pairs);
+      const int64_t traced = nanosecondsNow();
+      shade(tile, block, tracer_.scene(), settings_.clamp, pairs, sums);
+      tally->visibilityNs += traced - start;
+      tally->shadeNs += nanosecondsNow() - traced;
+    }
+    return true;
+  }
+
+  void write(const PointStrip& strip, const TileSums::Strip& sum, std::span<Rgb> radiance) const {
+    for (size_t lane = 0; lane < kStrip; ++lane) {
+      if (!(strip.active >> lane & 1)) continue;
+      const size_t i = strip.point[lane];
+      radiance[i] += receivers_.points[i].weight * Rgb(static_cast<float>(sum.x[lane]),
+                                                       static_cast<float>(sum.y[lane]),
+                                                       static_cast<float>(sum.z[lane]));
+    }
+  }
+
+  const Tracer& tracer_;
+  const Receivers& receivers_;
+  const VirtualLights& lights_;
+  const GatherSettings& settings_;
+  const Context& context_;
+};
+
+// Few points in smaller tiles, so that all threads get some. By the points alone: a ray's answer
+// may, in rare rounding cases, depend on its companions in a packet.
+size_t tilePoints(size_t points) {
+  size_t size = kMaxTilePoints;
+  while (size > kStrip && points / size < 128) size /= 2;
+  return size;
+}
+
+}  // namespace
+
+void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,
+               const GatherSettings& settings, std::span<Rgb> radiance, Context& context) {
+  const size_t points = receivers.points.size();
+  if (radiance.size() != points)
+    throw std::invalid_argument("gatherAll: one radiance value per receiver point");
+  const size_t size = tilePoints(points);
+  const size_t tiles = (points + size - 1) / size;
+  const TileGather tileGather(tracer, receivers, lights, settings, context);
+  std::atomic<uint64_t> rays{0}, pairs{0}, nonfinite{0};
+  std::atomic<int64_t> visibilityNs{0}, shadeNs{0};
+  std::atomic<size_t> done{0};
+  parallelFor(tiles, 1, [&](size_t i) {
+    if (context.cancelled()) return;
+    Tally tally;
+    tileGather.run(i * size, std::min(points, (i + 1) * size), radiance, &tally);
+    rays += tally.rays;
+    pairs += tally.pairs;
+    nonfinite += tally.nonfinite;
+    visibilityNs += tally.visibilityNs;
+    shadeNs += tally.shadeNs;
+    context.progress("gather", static_cast<double>(++done) / static_cast<double>(tiles));
+  });
+  const double toSeconds = 1e-9 / threadCount();
+  context.statistics.addCount("shadow_rays", rays);
+  context.statistics.addCount("node_pairs_shaded", pairs);
+  context.statistics.addCount("nonfinite", nonfinite);
+  context.statistics.addSeconds("visibility", static_cast<double>(visibilityNs) * toSeconds);
+  context.statistics.addSeconds("shade", static_cast<double>(shadeNs) * toSeconds);
+}
+
+}  // namespace lobelia

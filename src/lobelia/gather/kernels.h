@@ -1,0 +1,42 @@
+// The two stages of a brute-force gather over tile x block of lights, compiled for every SIMD
+// target and chosen at run time (kernels.cpp).
+#pragma once
+
+#include <vector>
+
+#include "lobelia/gather/light_block.h"
+#include "lobelia/gather/tile.h"
+
+namespace lobelia::gather {
+
+// Pairs of a tile and a block: one bit per point, 16 bits per light and strip.
+struct PairMasks {
+  std::vector<uint16_t> bits;  // [light * strips + strip]
+  size_t strips = 0;
+  void reset(size_t lightCount, size_t stripCount) {
+    strips = stripCount;
+    bits.resize(lightCount * stripCount);
+  }
+  uint16_t& at(size_t light, size_t strip) { return bits[light * strips + strip]; }
+};
+
+// Keeps of the pairs those that face each other (no factor but visibility is zero) and that nothing
+// stands between. Returns the number of rays traced.
+size_t keepVisible(const Tile& tile, const LightBlock& block, const Tracer& tracer,
+                   PairMasks* pairs);
+
+// Sums over a tile's points, [strip][lane].
+struct TileSums {
+  struct Strip {
+    double x[kStrip] = {}, y[kStrip] = {}, z[kStrip] = {};
+  };
+  std::vector<Strip> strips;
+  uint64_t pairs = 0, nonfinite = 0;
+};
+
+// Adds the light of the pairs to the sums: in the order of the lights, in float within the block.
+// A pair whose value is not finite adds nothing and is counted.
+void shade(const Tile& tile, const LightBlock& block, const Scene& scene, float clamp,
+           const PairMasks& pairs, TileSums* sums);
+
+}  // namespace lobelia::gather

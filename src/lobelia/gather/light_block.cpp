@@ -1,0 +1,132 @@
+#include "lobelia/gather/light_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lobelia/scene/shading.h"
+
+namespace lobelia::gather {
+namespace {
+
+// Position error assumed for a light: it was found by a ray, so its coordinates are good to some
+// units in the last place.
+float positionError(Vec3f p) {
+  return 4e-7f * std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z)));
+}
+
+Vec3f liftedEnd(Vec3f p, Vec3f n) { return offsetOrigin(p, n, positionError(p), n); }
+
+// expf() is exactly zero below this argument.
+constexpr float kZeroExponent = 104.f;
+
+PreparedLight prepared(const OmniLight& light) {
+  PreparedLight r;
+  r.p = r.end = light.p;
+  r.intensity = light.intensity;
+  r.emitter = light.emitter;
+  return r;
+}
+PreparedLight prepared(const DirectionalLight& light) {
+  PreparedLight r;
+  r.p = r.end = light.direction;
+  r.intensity = light.irradiance;
+  return r;
+}
+PreparedLight prepared(const DiffuseLight& light) {
+  PreparedLight r;
+  r.p = light.p;
+  r.n = decodeOctahedral(light.normal);
+  r.end = liftedEnd(r.p, r.n);
+  r.intensity = light.intensity;
+  return r;
+}
+PreparedLight prepared(const GlossyLight& light) {
+  PreparedLight r;
+  r.p = light.p;
+  r.n = light.n;
+  r.axis = light.axis;
+  r.sharpness = light.sharpness;
+  r.end = liftedEnd(r.p, r.n);
+  r.intensity = light.intensity;
+  // A little wider than where the exponent underflows, for the rounding of the cosine.
+  const float c = light.sharpness > 0 ? 1 - 1.01f * kZeroExponent / light.sharpness - 1e-6f : -2.f;
+  r.cutoff = c * std::abs(c);
+  return r;
+}
+
+template <class Light>
+void prepareAll(const std::vector<Light>& lights, LightBlock* block) {
+  for (int i = 0; i < block->count; ++i) {
+    block->lights[i] = prepared(lights[block->first + static_cast<size_t>(i)]);
+  }
+}
+
+size_t upToDepth(const std::vector<uint32_t>& ends, size_t count, int depth) {
+  if (depth < 0) return 0;
+  const size_t d = static_cast<size_t>(depth);
+  return d < ends.size() ? std::min<size_t>(ends[d], count) : count;
+}
+
+}  // namespace
+
+size_t lightCount(const VirtualLights& lights, LightClass lightClass) {
+  switch (lightClass) {
+    case LightClass::omni:
+      return lights.omni.size();
+    case LightClass::directional:
+      return lights.directional.size();
+    case LightClass::diffuse:
+      return lights.diffuse.size();
+    case LightClass::glossy:
+      break;
+  }
+  return lights.glossy.size();
+}
+
+size_t lightsUpToDepth(const VirtualLights& lights, LightClass lightClass, int depth) {
+  switch (lightClass) {
+    case LightClass::omni:
+    case LightClass::directional:
+      return depth < 0 ? 0 : lightCount(lights, lightClass);
+    case LightClass::diffuse:
+      return upToDepth(lights.diffuseDepthEnds, lights.diffuse.size(), depth);
+    case LightClass::glossy:
+      break;
+  }
+  return upToDepth(lights.glossyDepthEnds, lights.glossy.size(), depth);
+}
+
+size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass) {
+  const auto first = [](const std::vector<uint32_t>& ends) {
+    return ends.empty() ? size_t{0} : size_t{ends[0]};
+  };
+  switch (lightClass) {
+    case LightClass::omni:
+    case LightClass::directional:
+      return lightCount(lights, lightClass);
+    case LightClass::diffuse:
+      return first(lights.diffuseDepthEnds);
+    case LightClass::glossy:
+      break;
+  }
+  return first(lights.glossyDepthEnds);
+}
+
+void prepare(const VirtualLights& lights, LightClass lightClass, size_t first, size_t count,
+             LightBlock* block) {
+  block->lightClass = lightClass;
+  block->first = first;
+  block->count = static_cast<int>(std::min(count, kBlockLights));
+  switch (lightClass) {
+    case LightClass::omni:
+      return prepareAll(lights.omni, block);
+    case LightClass::directional:
+      return prepareAll(lights.directional, block);
+    case LightClass::diffuse:
+      return prepareAll(lights.diffuse, block);
+    case LightClass::glossy:
+      return prepareAll(lights.glossy, block);
+  }
+}
+
+}  // namespace lobelia::gather

@@ -1,0 +1,46 @@
+// A short run of virtual lights of one class, unpacked for the kernels.
+#pragma once
+
+#include <span>
+
+#include "lobelia/lights/virtual_lights.h"
+#include "lobelia/scene/scene.h"
+
+namespace lobelia::gather {
+
+enum class LightClass : uint8_t { omni, directional, diffuse, glossy };
+inline constexpr LightClass kLightClasses[] = {LightClass::omni, LightClass::directional,
+                                               LightClass::diffuse, LightClass::glossy};
+
+// One record for all classes; a class reads what it has (VirtualLights).
+struct PreparedLight {
+  Vec3f p;     // directional: unit direction to the light
+  Vec3f end;   // of shadow rays: p moved off its surface; directional: direction
+  Vec3f n;     // diffuse, glossy
+  Vec3f axis;  // glossy
+  float sharpness = 0;
+  // Glossy: exp(sharpness (c - 1)) is exactly 0 in float where c |c| is below this; c is the
+  // cosine to the axis.
+  float cutoff = 0;
+  Rgb intensity;
+  uint32_t emitter = 0xffffffffu;
+};
+
+inline constexpr size_t kBlockLights = 32;
+struct LightBlock {
+  LightClass lightClass = LightClass::omni;
+  size_t first = 0;  // index of lights[0] in its class
+  int count = 0;
+  PreparedLight lights[kBlockLights];
+};
+
+size_t lightCount(const VirtualLights& lights, LightClass lightClass);
+// How many of the lights of a class have depth <= `depth`; omni and directional lights are emitters
+// themselves (depth 0). depth < 0: none.
+size_t lightsUpToDepth(const VirtualLights& lights, LightClass lightClass, int depth);
+// How many of the lights of a class are on emitters themselves (depth 0); they come first.
+size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass);
+void prepare(const VirtualLights& lights, LightClass lightClass, size_t first, size_t count,
+             LightBlock* block);
+
+}  // namespace lobelia::gather

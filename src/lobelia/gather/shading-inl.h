@@ -1,0 +1,238 @@
+// Light of visible pairs at a strip of 16 receiver points, in three steps over the block's lights:
+// directions and light factors; the lobes, one after the other with their kinds as compile-time
+// constants where that pays; sums. Lanes that are not visible are computed and dropped: points stay
+// in their registers, nothing is gathered.
+#if defined(LOBELIA_GATHER_SHADING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LOBELIA_GATHER_SHADING_INL_H_
+#undef LOBELIA_GATHER_SHADING_INL_H_
+#else
+#define LOBELIA_GATHER_SHADING_INL_H_
+#endif
+
+#include "lobelia/bsdf/kernels-inl.h"
+#include "lobelia/gather/emission_pattern.h"
+#include "lobelia/gather/facing-inl.h"
+#include "lobelia/gather/kernels.h"
+
+LOBELIA_CORE_BEGIN
+
+// What a strip's part of kLanes points and the block's lights (those with a visible lane) have in
+// common. Arrays [light][lane].
+struct PairScratch {
+  struct alignas(64) Lanes {
+    float v[kLanes];
+  };
+  size_t count = 0;
+  uint32_t light[g::kBlockLights];  // index into the block
+  uint32_t mask[g::kBlockLights];
+  Lanes wiX[g::kBlockLights], wiY[g::kBlockLights], wiZ[g::kBlockLights];  // local frame
+  Lanes factor[g::kBlockLights];  // geometry x lobe of the light, without its intensity
+  Lanes r[g::kBlockLights], g[g::kBlockLights], b[g::kBlockLights];  // lobes of the receiver
+};
+
+// Lobe of the light towards the point over the squared distance; wi is the unit direction to it.
+template <g::LightClass kClass>
+HWY_INLINE Vf lightFactor(const g::PreparedLight& light, V3<Vf> wi, Vf inverseDistance) {
+  if constexpr (kClass == g::LightClass::directional) return Vf(1.f);
+  const Vf geometry = inverseDistance * inverseDistance;
+  if constexpr (kClass == g::LightClass::diffuse) {
+    return geometry * max(Vf(0.f) - dot(broadcast(light.n), wi), Vf(0.f));
+  }
+  if constexpr (kClass == g::LightClass::glossy) {
+    // |axis - w|^2 / 2 = 1 - axis.w, without its cancellation; w = -wi.
+    const V3<Vf> difference = broadcast(light.axis) + wi;
+    return geometry * exp(dot(difference, difference) * Vf(-0.5f * light.sharpness));
+  }
+  return geometry;
+}
+
+template <g::LightClass kClass>
+void directions(const g::PointStrip& strip, size_t lane, const g::LightBlock& block,
+                PairScratch* pairs) {
+  const V3<Vf> p = load(strip.p, lane);
+  const V3<Vf> s = load(strip.s, lane), t = load(strip.t, lane), n = load(strip.n, lane);
+  for (size_t i = 0; i < pairs->count; ++i) {
+    const g::PreparedLight& light = block.lights[pairs->light[i]];
+    V3<Vf> wi = toLight<kClass>(light, p);
+    Vf inverseDistance(1.f);
+    if constexpr (kClass != g::LightClass::directional) {
+      inverseDistance = Vf(1.f) / sqrt(dot(wi, wi));
+      wi = wi * inverseDistance;
+    }
+    lightFactor<kClass>(light, wi, inverseDistance).store(pairs->factor[i].v);
+    dot(wi, s).store(pairs->wiX[i].v);
+    dot(wi, t).store(pairs->wiY[i].v);
+    dot(wi, n).store(pairs->wiZ[i].v);
+  }
+}
+
+// Transmittance of a coat, linear between tabulated cosines.
+struct CoatTable {
+  const float* tables;
+  Vf offset;
+  HWY_INLINE Vf operator()(Vf cosine) const {
+    const Vf x = cosine * Vf(static_cast<float>(kTransmittanceSize - 1));
+    const Vf i = min(floor(x), Vf(static_cast<float>(kTransmittanceSize - 2)));
+    const Vf a = lobelia::HWY_NAMESPACE::gather(tables, offset + i);
+    const Vf b = lobelia::HWY_NAMESPACE::gather(tables, offset + i + Vf(1.f));
+    return a + (b - a) * (x - i);
+  }
+};
+
+// Adds one lobe of every pair. `tags` is a LobeTags or a constant that converts to one.
+template <class Tags>
+void addLobe(Tags tags, const g::LobeStrip& lobe, const float* tables, size_t lane, V3<Vf> wo,
+             PairScratch* pairs) {
+  LobeParameters<Vf> p;
+  p.alphaX = Vf::load(lobe.alphaX + lane);
+  p.alphaY = Vf::load(lobe.alphaY + lane);
+  p.weight = load(lobe.weight, lane);
+  p.eta = load(lobe.eta, lane);
+  p.k = load(lobe.k, lane);
+  p.parameters = load(lobe.parameters, lane);
+  p.tint = load(lobe.tint, lane);
+  p.sides = Vf::load(lobe.sides + lane);
+  const CoatTable table{tables, Vf::load(lobe.tableOffset + lane)};
+  for (size_t i = 0; i < pairs->count; ++i) {
+    const V3<Vf> wi{Vf::load(pairs->wiX[i].v), Vf::load(pairs->wiY[i].v),
+                    Vf::load(pairs->wiZ[i].v)};
+    const V3<Vf> f = evaluateLobe(LobeTags(tags), p, wo, wi, table);
+    (Vf::load(pairs->r[i].v) + f.x).store(pairs->r[i].v);
+    (Vf::load(pairs->g[i].v) + f.y).store(pairs->g[i].v);
+    (Vf::load(pairs->b[i].v) + f.z).store(pairs->b[i].v);
+  }
+}
+
+template <LobeType kType, Distribution kDistribution = Distribution::ggx,
+          Fresnel kFresnel = Fresnel::one>
+struct ConstantTags {
+  HWY_INLINE operator LobeTags() const { return {kType, kDistribution, kFresnel, 0}; }
+  static bool equal(const g::LobeStrip& lobe) {
+    return lobe.type == kType && lobe.distribution == kDistribution && lobe.fresnel == kFresnel &&
+           lobe.variant == 0;
+  }
+};
+
+// The frequent kinds get code of their own, in which the compiler moves what depends on the points
+// alone (masking of wo, 1/alpha) out of the loop over lights.
+template <class... Constants>
+void addLobeOfKind(const g::LobeStrip& lobe, const float* tables, size_t lane, V3<Vf> wo,
+                   PairScratch* pairs) {
+  const auto tryOne = [&]<class C>(C constant) {
+    if (!C::equal(lobe)) return false;
+    addLobe(constant, lobe, tables, lane, wo, pairs);
+    return true;
+  };
+  if ((tryOne(Constants()) || ...)) return;
+  addLobe(LobeTags{lobe.type, lobe.distribution, lobe.fresnel, lobe.variant}, lobe, tables, lane,
+          wo, pairs);
+}
+
+void addLobes(const g::Tile& tile, const g::PointStrip& strip, size_t lane, PairScratch* pairs) {
+  using enum LobeType;
+  const V3<Vf> wo = load(strip.wo, lane);
+  for (size_t i = 0; i < pairs->count; ++i) {
+    Vf(0.f).store(pairs->r[i].v);
+    Vf(0.f).store(pairs->g[i].v);
+    Vf(0.f).store(pairs->b[i].v);
+  }
+  for (size_t l = 0; l < strip.lobeCount; ++l) {
+    addLobeOfKind<ConstantTags<lambert>,  //
+                  ConstantTags<microfacetReflection, Distribution::ggx, Fresnel::conductor>,
+                  ConstantTags<microfacetReflection, Distribution::ggx, Fresnel::dielectric>,
+                  ConstantTags<microfacetReflection, Distribution::beckmann, Fresnel::conductor>,
+                  ConstantTags<microfacetReflection, Distribution::beckmann, Fresnel::dielectric>,
+                  ConstantTags<phong>>(tile.lobes[strip.firstLobe + l], tile.tables.data(), lane,
+                                       wo, pairs);
+  }
+}
+
+// Multiplies by the directional pattern of a spot or projector: a few lights, done point by point.
+inline void applyPattern(const g::PointStrip& strip, size_t lane, const g::PreparedLight& light,
+                         const Scene& scene, size_t i, PairScratch* pairs) {
+  for (size_t k = 0; k < kLanes; ++k) {
+    const Vec3f p = strip.p.get(static_cast<int>(lane + k));
+    const Rgb pattern = g::emissionPattern(scene, light.emitter, p - light.p);
+    pairs->r[i].v[k] *= pattern.x;
+    pairs->g[i].v[k] *= pattern.y;
+    pairs->b[i].v[k] *= pattern.z;
+  }
+}
+
+struct LaneSums {
+  V3<Vf> sum;
+  uint64_t pairs, nonfinite;
+};
+
+template <g::LightClass kClass>
+LaneSums sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block,
+               const Scene& scene, float clamp, PairScratch* pairs) {
+  constexpr bool kClamped = kClass != g::LightClass::directional;
+  LaneSums sums{{Vf(0.f), Vf(0.f), Vf(0.f)}, 0, 0};
+  for (size_t i = 0; i < pairs->count; ++i) {
+    const g::PreparedLight& light = block.lights[pairs->light[i]];
+    Vf factor = Vf::load(pairs->factor[i].v);
+    if (kClamped && clamp > 0) {
+      const Vf r = Vf::load(pairs->r[i].v), gg = Vf::load(pairs->g[i].v),
+               b = Vf::load(pairs->b[i].v);
+      const Vf largest = factor * max(r, max(gg, b));
+      factor = select(largest > Vf(clamp), factor * (Vf(clamp) / largest), factor);
+    }
+    if (kClass == g::LightClass::omni && light.emitter != 0xffffffffu) {
+      applyPattern(strip, lane, light, scene, i, pairs);
+    }
+    const V3<Vf> value{Vf::load(pairs->r[i].v) * factor * Vf(light.intensity.x),
+                       Vf::load(pairs->g[i].v) * factor * Vf(light.intensity.y),
+                       Vf::load(pairs->b[i].v) * factor * Vf(light.intensity.z)};
+    const Vf total = value.x + value.y + value.z;
+    const Mf visible = maskFromBits(pairs->mask[i]);
+    const Mf good = visible & (total - total == Vf(0.f));
+    sums.sum.x += select(good, value.x, Vf(0.f));
+    sums.sum.y += select(good, value.y, Vf(0.f));
+    sums.sum.z += select(good, value.z, Vf(0.f));
+    const size_t visibleCount = hn::CountTrue(Df(), visible.m);
+    sums.pairs += visibleCount;
+    sums.nonfinite += visibleCount - hn::CountTrue(Df(), good.m);
+  }
+  return sums;
+}
+
+template <g::LightClass kClass>
+void shadeOf(const g::Tile& tile, const g::LightBlock& block, const Scene& scene, float clamp,
+             const g::PairMasks& pairMasks, g::TileSums* sums) {
+  PairScratch pairs;
+  for (size_t s = 0; s < tile.strips.size(); ++s) {
+    const g::PointStrip& strip = tile.strips[s];
+    for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
+      pairs.count = 0;
+      for (size_t l = 0; l < static_cast<size_t>(block.count); ++l) {
+        const uint32_t bits =
+            (static_cast<uint32_t>(pairMasks.bits[l * pairMasks.strips + s]) >> lane) &
+            ((1u << kLanes) - 1);
+        if (bits == 0) continue;
+        pairs.light[pairs.count] = static_cast<uint32_t>(l);
+        pairs.mask[pairs.count++] = bits;
+      }
+      if (pairs.count == 0) continue;
+      directions<kClass>(strip, lane, block, &pairs);
+      addLobes(tile, strip, lane, &pairs);
+      const LaneSums lanes = sumUp<kClass>(strip, lane, block, scene, clamp, &pairs);
+      sums->pairs += lanes.pairs;
+      sums->nonfinite += lanes.nonfinite;
+      alignas(64) float x[kLanes], y[kLanes], z[kLanes];
+      lanes.sum.x.store(x);
+      lanes.sum.y.store(y);
+      lanes.sum.z.store(z);
+      g::TileSums::Strip& sum = sums->strips[s];
+      for (size_t k = 0; k < kLanes; ++k) {
+        sum.x[lane + k] += static_cast<double>(x[k]);
+        sum.y[lane + k] += static_cast<double>(y[k]);
+        sum.z[lane + k] += static_cast<double>(z[k]);
+      }
+    }
+  }
+}
+
+LOBELIA_CORE_END
+
+#endif  // per-target include guard

@@ -1,0 +1,61 @@
+// Receivers of a tile as structure of arrays, in strips of 16 points whose lobes are of the same
+// kinds: a strip fills one register (or 2, 4, 16) for every field, and the kinds of its lobes are
+// branches that all its points take alike.
+#pragma once
+
+#include <vector>
+
+#include "lobelia/path/receivers.h"
+
+namespace lobelia::gather {
+
+inline constexpr int kStrip = 16;
+
+struct StripV3 {
+  alignas(64) float x[kStrip];
+  alignas(64) float y[kStrip];
+  alignas(64) float z[kStrip];
+  void set(int lane, Vec3f v) { x[lane] = v.x, y[lane] = v.y, z[lane] = v.z; }
+  Vec3f get(int lane) const { return {x[lane], y[lane], z[lane]}; }
+};
+
+// One lobe of each of the 16 points; the fields of Lobe that evaluation reads.
+struct LobeStrip {
+  LobeType type;
+  Distribution distribution;
+  Fresnel fresnel;
+  uint8_t variant;
+  alignas(64) float alphaX[kStrip];
+  alignas(64) float alphaY[kStrip];
+  StripV3 weight, eta, k, parameters, tint;
+  alignas(64) float sides[kStrip];        // bsdf/kernels-inl.h
+  alignas(64) float tableOffset[kStrip];  // into Tile::tables, coated diffuse lobes only
+};
+
+struct PointStrip {
+  StripV3 p, s, t, n;
+  StripV3 wo;  // in the frame (s, t, n)
+  StripV3 ng;
+  StripV3 front, back;              // origins of rays that leave on the side of ng, on the other
+  alignas(64) float above[kStrip];  // 1 where light from the side of n can be scattered to wo
+  alignas(64) float below[kStrip];  // 1 where light from the other side can
+  uint32_t point[kStrip];           // index into Receivers::points
+  uint8_t depth[kStrip];
+  uint32_t active = 0;   // bit per lane; the other lanes repeat an active one
+  size_t firstLobe = 0;  // into Tile::lobes
+  size_t lobeCount = 0;
+};
+
+struct Tile {
+  std::vector<PointStrip> strips;
+  std::vector<LobeStrip> lobes;
+  std::vector<float> tables;  // kTransmittanceSize values each
+};
+
+inline constexpr size_t kMaxTilePoints = 256;
+
+// Strips of receivers.points[begin, end), at most kMaxTilePoints. Points without lobes are left
+// out. Points of one kind keep their order, so that neighbours stay together.
+Tile makeTile(const Receivers& receivers, size_t begin, size_t end);
+
+}  // namespace lobelia::gather
