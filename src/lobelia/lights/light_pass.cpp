@@ -117,11 +117,12 @@ void addEmitters(const EmitterSampler& emitters, const LightSettings& settings, 
   const Scene& scene = emitters.scene();
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
     const Emitter& e = scene.emitters[i];
-    const Rgb value = e.radiance.value * e.scale;
+    const Rgb value = evaluate(scene, e.radiance, TextureContext{});
     const Vec3f origin = e.toWorld.point(Vec3f(0.f));
     if (e.type == EmitterType::point) lights->omni.push_back({origin, value, 0xffffffffu});
-    if (e.type == EmitterType::spot || e.type == EmitterType::projector)
-      lights->omni.push_back({origin, value, i});
+    if (e.type == EmitterType::spot) lights->omni.push_back({origin, value, i});
+    // The picture, which varies, is wholly left to the pattern.
+    if (e.type == EmitterType::projector) lights->omni.push_back({origin, Rgb(kPi * e.scale), i});
     if (e.type == EmitterType::directional)
       lights->directional.push_back({-normalize(e.direction), value});
   }

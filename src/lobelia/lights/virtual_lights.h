@@ -8,8 +8,9 @@
 
 namespace lobelia {
 
-// Uniform intensity in all directions, W/sr (point emitters; `emitter` adds a spot's or projector's
-// pattern, 0xffffffff: none).
+// Uniform intensity in all directions, W/sr. Of a spot or projector `emitter` (0xffffffff: none)
+// gives the pattern that multiplies it: a spot's falloff and picture; a projector's picture / cos^3
+// of the angle to its axis, where intensity is pi * scale.
 struct OmniLight {
   Vec3f p;
   Rgb intensity;
@@ -28,8 +29,8 @@ struct DiffuseLight {
   uint32_t tag;  // depth in the low 8 bits, group above
 };
 static_assert(sizeof(DiffuseLight) == 32);
-// Spherical-Gaussian lobe clipped at its surface: intensity exp(sharpness (axis.w - 1)) for n.w >
-// 0.
+// Spherical-Gaussian lobe clipped at its surface: intensity exp(sharpness (axis.w - 1)) where
+// n.w > 0.
 struct GlossyLight {
   Vec3f p;
   Vec3f n;

@@ -29,9 +29,6 @@ bool isDelta(LobeType type) {
   return type == LobeType::deltaReflection || type == LobeType::deltaTransmission ||
          type == LobeType::null;
 }
-bool transmits(LobeType type) {
-  return type == LobeType::microfacetTransmission || type == LobeType::diffuseTransmission;
-}
 bool inSet(const Lobe& lobe, LobeSet set) {
   return (static_cast<int>(set) & static_cast<int>(lobe.sharp ? LobeSet::sharp : LobeSet::rough)) !=
          0;
@@ -42,13 +39,6 @@ bool canEvaluate(const Bsdf& bsdf, LobeSet set) {
   for (int i = 0; i < bsdf.lobeCount; ++i)
     if (inSet(bsdf.lobes[i], set) && !isDelta(bsdf.lobes[i].type)) return true;
   return false;
-}
-
-// Normal on the side that emitters are wanted from; zero: either side.
-Vec3f receivingNormal(const Bsdf& bsdf, Vec3f wo, LobeSet set) {
-  for (int i = 0; i < bsdf.lobeCount; ++i)
-    if (inSet(bsdf.lobes[i], set) && transmits(bsdf.lobes[i].type)) return {};
-  return dot(wo, bsdf.frame.n) >= 0 ? bsdf.frame.n : -bsdf.frame.n;
 }
 
 }  // namespace
@@ -106,20 +96,12 @@ float EyeWalk::importance(const EyeSegment& segment) const {
 void EyeWalk::step(const EyeSegment& segment, State* state) const {
   ++state->counts->pathRays;
   const auto hit = tracer_.intersect(segment.ray);
-  const bool weighted = segment.pdf > 0;
-  if (!hit) {
-    const Rgb radiance = emitters_.escaped(segment.ray.d);
-    const float pdf = weighted ? emitters_.pdfEscaped(segment.p, segment.n, segment.ray.d) : 0;
-    return addEmission(segment, radiance, pdf, state);
-  }
+  if (!hit) return addEmission(segment, nullptr, emitters_.escaped(segment.ray.d), state);
   Vertex v;
   v.at = surfacePoint(emitters_.scene(), *hit);
   v.wo = -segment.ray.d;
   v.depth = segment.depth + 1;
-  if (v.at.emitter.valid()) {
-    const float pdf = weighted ? emitters_.pdfHit(segment.p, segment.n, v.at, segment.ray.d) : 0;
-    addEmission(segment, emitters_.emitted(v.at, v.wo), pdf, state);
-  }
+  if (v.at.emitter.valid()) addEmission(segment, &v.at, emitters_.emitted(v.at, v.wo), state);
   const bool first = segment.depth == 0;
   if (!mayEnd(v.depth + 1) && !first) return;
   v.bsdf = makeBsdf(emitters_.scene(), v.at, v.wo, settings_.specularLimit);
@@ -144,17 +126,19 @@ void EyeWalk::step(const EyeSegment& segment, State* state) const {
   if (sharp) extend(segment, v, state);
 }
 
-void EyeWalk::addEmission(const EyeSegment& segment, Rgb radiance, float emitterPdf,
+void EyeWalk::addEmission(const EyeSegment& segment, const SurfacePoint* hit, Rgb radiance,
                           State* state) const {
   if (segment.depth == 0 && settings_.hideEmitters) return;
   // Without direct samples the emitters themselves are virtual lights to receivers.
   if (segment.kind == EyeSegment::Kind::receiver && settings_.directSamples == 0) return;
   if (radiance == Rgb(0.f)) return;
-  const float weight =
-      segment.pdf > 0
-          ? powerHeuristic(segment.pdf, static_cast<float>(segment.emitterSamples) * emitterPdf)
-          : 1;
-  const Rgb light = segment.throughput * radiance * weight;
+  const float weight = segment.pdf > 0 ? emissionWeight(emitters_, segment.origin, hit,
+                                                        segment.ray.d, segment.pdf, false)
+                                       : 1;
+  addLight(segment, segment.throughput * radiance * weight, state);
+}
+
+void EyeWalk::addLight(const EyeSegment& segment, Rgb light, State* state) const {
   if (!isFinite(light)) {
     ++state->counts->nonFinite;
     return;
@@ -163,48 +147,30 @@ void EyeWalk::addEmission(const EyeSegment& segment, Rgb radiance, float emitter
   if (segment.connection) state->result.specular += light;
 }
 
+// Every sample is weighted as if it were the only one beside the BSDF sample: the weights still sum
+// to one.
 Rgb EyeWalk::nextEvent(const Vertex& v, LobeSet set, int sampleCount, State* state) const {
   if (sampleCount == 0 || !canEvaluate(v.bsdf, set)) return Rgb(0.f);
-  const Vec3f n = receivingNormal(v.bsdf, v.wo, set);
+  const LightQuery query = lightQuery(v.at, v.bsdf, v.wo);
   Rgb sum(0.f);
   for (int i = 0; i < sampleCount; ++i) {
     const float uSelect = state->random.next1D();
     const Vec2f u = state->random.next2D();
-    const auto light = emitters_.sampleDirection(v.at.p, n, {uSelect, u.x, u.y});
-    if (!light) continue;
-    const Rgb f = evaluate(v.bsdf, v.wo, light->wi, set);
-    if (!(maxComponent(f) > 0)) continue;
-    ++state->counts->shadowRays;
-    const Vec3f origin = offsetOrigin(v.at, light->wi);
-    const bool finite = light->distance < 1e37f;
-    const bool seen =
-        finite ? tracer_.visible(origin, light->target) : !tracer_.occluded({origin, light->wi});
-    if (!seen) continue;
-    const float weight = light->delta ? 1
-                                      : powerHeuristic(static_cast<float>(sampleCount) * light->pdf,
-                                                       pdf(v.bsdf, v.wo, light->wi, set));
-    const Rgb value = f * light->weight * weight;
-    if (isFinite(value))
-      sum += value;
-    else
-      ++state->counts->nonFinite;
+    sum += sampleDirectLight(tracer_, emitters_, query, v.bsdf, v.wo, set, set, true,
+                             {uSelect, u.x, u.y}, &state->counts->shadowRays);
   }
   return sum / static_cast<float>(sampleCount);
 }
 
 void EyeWalk::receive(const EyeSegment& segment, const Vertex& v, State* state) const {
-  const bool primary = segment.kind == EyeSegment::Kind::eye;
-  const Rgb light =
-      segment.throughput * nextEvent(v, LobeSet::rough, settings_.directSamples, state);
-  (primary ? state->result.direct : state->result.indirect) += light;
-  if (!primary) state->result.specular += light;
-  if (mayEnd(v.depth + 2) || settings_.directSamples == 0) record(segment, v, state);
-
   EyeSegment next;
   next.kind = EyeSegment::Kind::receiver;
-  next.direct = primary;
-  next.connection = !primary;
-  scatter(segment, v, LobeSet::rough, settings_.directSamples, next, state);
+  next.direct = segment.kind == EyeSegment::Kind::eye;
+  next.connection = !next.direct;
+  const Rgb light = nextEvent(v, LobeSet::rough, settings_.directSamples, state);
+  addLight(next, segment.throughput * light, state);
+  if (mayEnd(v.depth + 2) || settings_.directSamples == 0) record(segment, v, state);
+  scatter(segment, v, LobeSet::rough, next, state);
 }
 
 void EyeWalk::record(const EyeSegment& segment, const Vertex& v, State* state) const {
@@ -233,14 +199,12 @@ void EyeWalk::extend(const EyeSegment& segment, const Vertex& v, State* state) c
       segment.kind == EyeSegment::Kind::eye ? EyeSegment::Kind::eye : EyeSegment::Kind::chain;
   next.direct = next.kind == EyeSegment::Kind::eye;
   next.connection = !next.direct;
-  const Rgb light = segment.throughput * nextEvent(v, LobeSet::sharp, 1, state);
-  (next.direct ? state->result.direct : state->result.indirect) += light;
-  if (next.connection) state->result.specular += light;
-  scatter(segment, v, LobeSet::sharp, 1, next, state);
+  addLight(next, segment.throughput * nextEvent(v, LobeSet::sharp, 1, state), state);
+  scatter(segment, v, LobeSet::sharp, next, state);
 }
 
-void EyeWalk::scatter(const EyeSegment& from, const Vertex& v, LobeSet set, int emitterSamples,
-                      EyeSegment next, State* state) const {
+void EyeWalk::scatter(const EyeSegment& from, const Vertex& v, LobeSet set, EyeSegment next,
+                      State* state) const {
   const float uLobe = state->random.next1D();
   const Vec2f u = state->random.next2D();
   const float uRoulette = state->random.next1D();
@@ -257,10 +221,8 @@ void EyeWalk::scatter(const EyeSegment& from, const Vertex& v, LobeSet set, int 
   next.throughput /= survival;
   next.ray = {offsetOrigin(v.at, s->wi), s->wi};
   next.depth = v.depth;
-  next.p = v.at.p;
-  next.n = receivingNormal(v.bsdf, v.wo, set);
+  next.origin = lightQuery(v.at, v.bsdf, v.wo);
   next.pdf = s->delta ? 0 : s->pdf;
-  next.emitterSamples = emitterSamples;
   state->open.push_back(next);
 }
 

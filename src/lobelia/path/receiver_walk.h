@@ -3,6 +3,7 @@
 
 #include "lobelia/base/random.h"
 #include "lobelia/bsdf/bsdf.h"
+#include "lobelia/path/direct_light.h"
 #include "lobelia/path/receivers.h"
 
 namespace lobelia {
@@ -41,9 +42,8 @@ struct EyeSegment {
   Rgb throughput;           // factor to the pixel's value
   float etaScale = 1;       // undoes refraction's change of radiance, for Russian roulette
   // For the weight against next-event estimation at its start; pdf 0: there was none.
-  Vec3f p, n;
+  LightQuery origin;
   float pdf = 0;
-  int emitterSamples = 0;
 };
 
 class EyeWalk {
@@ -58,14 +58,18 @@ class EyeWalk {
   struct State;  // of one call
   struct Vertex;
   void step(const EyeSegment& segment, State* state) const;
-  void addEmission(const EyeSegment& segment, Rgb radiance, float emitterPdf, State* state) const;
+  // hit: null when the ray escaped.
+  void addEmission(const EyeSegment& segment, const SurfacePoint* hit, Rgb radiance,
+                   State* state) const;
+  // Adds to the layers that the segment's flags name.
+  void addLight(const EyeSegment& segment, Rgb light, State* state) const;
   void receive(const EyeSegment& segment, const Vertex& vertex, State* state) const;
   void extend(const EyeSegment& segment, const Vertex& vertex, State* state) const;
   Rgb nextEvent(const Vertex& vertex, LobeSet set, int sampleCount, State* state) const;
   void record(const EyeSegment& segment, const Vertex& vertex, State* state) const;
   // Queues what sample(bsdf, set) finds; kind and the flags are the caller's.
-  void scatter(const EyeSegment& from, const Vertex& vertex, LobeSet set, int emitterSamples,
-               EyeSegment next, State* state) const;
+  void scatter(const EyeSegment& from, const Vertex& vertex, LobeSet set, EyeSegment next,
+               State* state) const;
   // Factor to the pixel's value relative to a sample's full weight.
   float importance(const EyeSegment& segment) const;
   bool mayEnd(int edges) const { return settings_.maxDepth < 0 || edges <= settings_.maxDepth; }

@@ -20,21 +20,22 @@ struct ReceiverPoint {
   uint32_t pixel = 0;  // index into the data window
   uint32_t firstLobe = 0;
   uint8_t lobeCount = 0;
-  uint8_t depth = 1;   // edges from the camera (Mitsuba's depth of this vertex)
-  bool primary = true; // first receiver of its eye path: its emitter light is "direct"
+  uint8_t depth = 1;    // edges from the camera (Mitsuba's depth of this vertex)
+  bool primary = true;  // first receiver of its eye path: its emitter light is "direct"
 };
 
 struct Receivers {
-  std::vector<ReceiverPoint> points;   // in tile order: neighbours in the array are near on screen
+  std::vector<ReceiverPoint> points;  // in tile order: neighbours in the array are near on screen
   std::vector<Lobe> lobes;
 };
 
 struct EyeSettings {
-  int sample = 0;                // index of the sample of each pixel
-  int sampleCount = 1;           // total (for the weight)
+  int sample = 0;       // index of the sample of each pixel
+  int sampleCount = 1;  // total (for the weight)
   int maxDepth = -1;
   float specularLimit = 0.08f;
-  int directSamples = 1;         // emitter samples per receiver for direct light; 0: none (--direct lights)
+  int directSamples =
+      1;  // emitter samples per receiver for direct light; 0: none (--direct lights)
   bool hideEmitters = false;
   PixelSet pixels;
 };
