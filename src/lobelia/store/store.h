@@ -12,10 +12,20 @@
 
 namespace lobelia::store {
 
-// Writes to FILE.tmp-PID, syncs, renames. Throws RuntimeError and leaves nothing half-written.
+// Writes to FILE.tmp-PID in the same folder, syncs, renames. Throws RuntimeError that names the
+// file and the reason, and leaves nothing half-written. A link is followed; a device or a pipe is
+// written to directly.
 void writeFileAtomically(const std::string& file, std::span<const std::byte> bytes);
-std::vector<std::byte> readFile(const std::string& file, uint64_t maxBytes = 1ull << 36);  // InputError
+// The same for a file in several parts, one after the other.
+void writeFileAtomically(const std::string& file,
+                         std::span<const std::span<const std::byte>> parts);
+// Throws InputError, also when the file holds more than maxBytes.
+std::vector<std::byte> readFile(const std::string& file, uint64_t maxBytes = 1ull << 36);
+// Up to the first `bytes` bytes. Throws InputError.
+std::vector<std::byte> readFileStart(const std::string& file, size_t bytes);
 
+// Collects named chunks and writes them as one file (layout: container.cpp). `kind` says what the
+// file holds, in at most 16 bytes; `version` is that of the kind's chunks.
 class Writer {
  public:
   Writer(std::string_view kind, uint32_t version, uint64_t sceneHash);
@@ -28,6 +38,9 @@ class Writer {
 
  private:
   void addBytes(std::string_view chunk, std::span<const std::byte> bytes, size_t itemSize);
+  std::string kind_;
+  uint32_t version_;
+  uint64_t sceneHash_;
   std::vector<std::byte> data_;
 };
 
@@ -36,6 +49,8 @@ class Reader {
   // Throws InputError: not this kind, another version, truncated, checksum differs.
   Reader(const std::string& file, std::string_view kind, uint32_t version);
   uint64_t sceneHash() const { return sceneHash_; }
+  bool has(std::string_view chunk) const;
+  // Throws InputError: no such chunk, items of another size, data that does not unpack.
   template <class T>
   std::vector<T> get(std::string_view chunk) const {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -47,12 +62,20 @@ class Reader {
 
  private:
   std::vector<std::byte> getBytes(std::string_view chunk, size_t itemSize) const;
-  struct Chunk { std::string name; uint32_t itemSize; std::vector<std::byte> bytes; };
+  struct Chunk {
+    std::string name;
+    uint32_t itemSize = 0;
+    uint64_t size = 0;             // bytes when unpacked
+    size_t begin = 0, packed = 0;  // place and bytes in data_
+  };
+  const Chunk* find(std::string_view chunk) const;
   std::string file_;
   uint64_t sceneHash_ = 0;
+  std::vector<std::byte> data_;  // the whole file; chunks are unpacked when asked for
   std::vector<Chunk> chunks_;
 };
 
+// XXH3, 64 bits.
 uint64_t hashBytes(std::span<const std::byte> bytes, uint64_t seed = 0);
 
 }  // namespace lobelia::store
