@@ -64,9 +64,9 @@ int writeParts(Descriptor& out, std::span<const std::span<const std::byte>> part
 
 // Makes the rename itself survive a power cut, where the system can.
 void syncFolder(const std::string& file) {
-  std::string folder = std::filesystem::path(file).parent_path().string();
-  if (folder.empty()) folder = ".";
-  const Descriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  const char* name = folder.empty() ? "." : folder.c_str();
+  const Descriptor fd(::open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (fd.get() >= 0) (void)::fsync(fd.get());
 }
 
@@ -75,7 +75,7 @@ void syncFolder(const std::string& file) {
 int openTemporary(const std::string& file, std::string& name) {
   for (int i = 0;; ++i) {
     name = file + ".tmp-" + std::to_string(::getpid());
-    if (i > 0) name += "-" + std::to_string(i);
+    if (i > 0) name.append(1, '-').append(std::to_string(i));
     const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd >= 0 || errno != EEXIST || i == 1000) return fd;
   }
