@@ -17,15 +17,16 @@ struct SphericalGaussian {
 float evaluate(const SphericalGaussian& g, Vec3f w);
 // exp(sharpness (cos - 1)) by |axis - w|^2, exact for sharp lobes.
 float gaussian(Vec3f axis, float sharpness, Vec3f w);
-float integral(float sharpness);                     // A = 2 pi (1 - e^(-2 sharpness)) / sharpness
+float integral(float sharpness);  // A = 2 pi (1 - e^(-2 sharpness)) / sharpness
 SphericalGaussian product(const SphericalGaussian& a, const SphericalGaussian& b);
 float productIntegral(const SphericalGaussian& a, const SphericalGaussian& b);
-float meanResultant(float kappa);                    // A3 = coth k - 1/k
-float inverseMeanResultant(float r);                 // kappa of a mean resultant r in [0,1)
+float meanResultant(float kappa);     // A3 = coth k - 1/k
+float inverseMeanResultant(float r);  // kappa of a mean resultant r in [0,1)
 // integral of exp(sharpness(axis.w-1)) over the hemisphere with normal at cosine c to the axis
-float hemisphereIntegral(float cosine, float sharpness);   // Tokuyoshi 2022 form, error <= .0044 A
-float cosineIntegral(float cosine, float sharpness);       // times [n.w]+; Tokuyoshi et al. 2024
-double hemisphereIntegralExact(double cosine, double sharpness, int cosinePower);  // quadrature oracle
+float hemisphereIntegral(float cosine, float sharpness);  // Tokuyoshi 2022 form, error <= .0044 A
+float cosineIntegral(float cosine, float sharpness);      // times [n.w]+; Tokuyoshi et al. 2024
+double hemisphereIntegralExact(double cosine, double sharpness,
+                               int cosinePower);  // quadrature oracle
 
 float vmfPdf(Vec3f axis, float kappa, Vec3f w);
 Vec3f sampleVmf(Vec3f axis, float kappa, Vec2f u);
@@ -37,6 +38,7 @@ struct Moment {
   void add(const Moment& m) { weight += m.weight, first += m.first; }
 };
 Moment momentOf(Vec3f axis, float kappa, float energy);
-SphericalGaussian lobeOf(const Moment& m, float maxKappa = 1e7f);  // amplitude so that the energy is kept
+SphericalGaussian lobeOf(const Moment& m,
+                         float maxKappa = 1e7f);  // amplitude so that the energy is kept
 
 }  // namespace lobelia::lobes
