@@ -64,6 +64,7 @@ void parseElement(const Line& line, PlyHeader& header) {
   line.expect(line.words.size() == 3, "element NAME COUNT");
   PlyElement element;
   element.name = line.words[1];
+  element.line = line.where.line;
   const std::string& count = line.words[2];
   const auto [end, error] =
       std::from_chars(count.data(), count.data() + count.size(), element.count);
@@ -96,13 +97,13 @@ void checkCounts(const PlyHeader& header, const std::string& bytes, const std::s
     for (const PlyProperty& p : element.properties)
       least +=
           header.format == PlyHeader::Format::ascii ? 2 : byteSize(p.isList ? p.countType : p.type);
+    const Location where{file, element.line, 0};
     if (least == 0 && element.count > 0)
-      throw InputError({file, 0, 0}, fmt::format("element '{}' has no properties", element.name));
+      throw InputError(where, fmt::format("element '{}' has no properties", element.name));
     if (element.count > 0 && element.count > left / least)
-      throw InputError({file, 0, 0},
-                       fmt::format("the header promises {} of '{}', more than the file can "
-                                   "hold; it is damaged or truncated",
-                                   element.count, element.name));
+      throw InputError(where, fmt::format("the header promises {} of '{}', more than the file can "
+                                          "hold; it is damaged or truncated",
+                                          element.count, element.name));
     left -= element.count * least;
   }
 }

@@ -34,6 +34,7 @@ struct PlyProperty {
 struct PlyElement {
   std::string name;
   uint64_t count = 0;
+  int line = 0;  // where it is declared
   std::vector<PlyProperty> properties;
 };
 struct PlyHeader {

@@ -32,7 +32,10 @@ class Cursor {
         format_(header.format),
         where_{file, header.format == PlyHeader::Format::ascii ? header.lineCount + 1 : 0, 0} {}
 
-  [[noreturn]] void fail(const std::string& message) const { throw InputError(where_, message); }
+  // At the declaration of an element.
+  [[noreturn]] void failIn(const PlyElement& element, const std::string& message) const {
+    throw InputError({where_.file, element.line, 0}, message);
+  }
   void setContext(const PlyElement& element, uint64_t index) {
     element_ = &element, index_ = index;
   }
@@ -49,7 +52,7 @@ class Cursor {
     return static_cast<uint64_t>(n);
   }
   [[noreturn]] void failHere(const std::string& message) const {
-    fail(fmt::format("in {} {} (from 0): {}", element_->name, index_, message));
+    throw InputError(where_, fmt::format("in {} {} (from 0): {}", element_->name, index_, message));
   }
 
  private:
@@ -236,7 +239,8 @@ void skip(Cursor& in, const PlyProperty& property) {
 
 void readVertices(Cursor& in, const PlyElement& element, Mesh& mesh) {
   Layout layout(element, "vertex_");
-  if (!layout.bind({"x", "y", "z"}, kPosition)) in.fail("the vertices have no x, y and z");
+  if (!layout.bind({"x", "y", "z"}, kPosition))
+    in.failIn(element, "the vertices have no x, y and z");
   const bool hasNormals = layout.bind({"nx", "ny", "nz"}, kNormal);
   const bool hasUvs = layout.bind({"u", "v"}, kUv) ||
                       layout.bind({"texture_u", "texture_v"}, kUv) || layout.bind({"s", "t"}, kUv);
@@ -285,7 +289,7 @@ uint64_t readFaces(Cursor& in, const PlyElement& element, Mesh& mesh) {
       list = p;
   }
   if (list == element.properties.size())
-    in.fail("the faces have no integer list 'vertex_indices' or 'vertex_index'");
+    in.failIn(element, "the faces have no integer list 'vertex_indices' or 'vertex_index'");
   uint64_t tooSmall = 0;
   std::vector<uint32_t> corners;
   std::vector<float> values;

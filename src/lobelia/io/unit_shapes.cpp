@@ -1,10 +1,10 @@
 // Mitsuba's analytic shapes as meshes, with its parametrisation (uv) and exact normals.
 //
 // Tessellation of the round ones: a circle of N segments lies inside the true one by at most the
-// sagitta 1 - cos(pi / N) of its radius. N = 256 gives 7.5e-5: a sphere 1000 pixels wide has a
-// silhouette that is wrong by less than 0.04 pixels, far below a pixel filter's width. Reflections
-// follow the normals, which are exact at the vertices and, interpolated and normalised, wrong by
-// less than (2 pi / N)^2 / 8 < 1e-4 rad within a triangle.
+// sagitta 1 - cos(pi / N) of its radius. N = 256 gives 7.5e-5, twice that along the diagonals of
+// the sphere's cells: a sphere 1000 pixels wide has a silhouette that is wrong by less than 0.08
+// pixels, far below a pixel filter's width. Reflections follow the normals, which are exact at the
+// vertices and, interpolated and normalised, wrong by less than 1e-5 rad within a triangle.
 #include <cmath>
 
 #include "lobelia/io/mesh_io.h"
