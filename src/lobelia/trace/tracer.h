@@ -9,19 +9,31 @@
 
 namespace lobelia {
 
+// Where a shadow ray that is as long as its direction ends. The intersector's error grows with the
+// length of the ray, which the offset of the far end from its surface does not know.
+inline constexpr float kShadowEnd = 1 - 0x1p-15f;
+
 // Up to 16 shadow rays as structure of arrays, ready for Embree's packets. Fill lanes [0, 16);
-// active[i] = -1 for lanes to trace, 0 for others.
+// active[i] = -1 for lanes to trace, 0 for others. Directions need not be unit.
 struct alignas(64) ShadowPacket {
   static constexpr int kSize = 16;
   float ox[kSize], oy[kSize], oz[kSize], tMin[kSize];
   float dx[kSize], dy[kSize], dz[kSize], tMax[kSize];
   int32_t active[kSize];
+
+  // A lane from a to b, both already offset from their surfaces.
+  void set(int lane, Vec3f a, Vec3f b) {
+    ox[lane] = a.x, oy[lane] = a.y, oz[lane] = a.z, tMin[lane] = 0;
+    dx[lane] = b.x - a.x, dy[lane] = b.y - a.y, dz[lane] = b.z - a.z, tMax[lane] = kShadowEnd;
+    active[lane] = -1;
+  }
 };
 
 class Tracer {
  public:
   // Keeps a reference to the scene, which must not change. Throws InputError for a scene too large
-  // for 32-bit ids; cancels with the context; reports Embree's memory in statistics.
+  // for 32-bit ids or with indices out of range, RuntimeError with Embree's message, Cancelled with
+  // the context. Adds its time to the stage "accel" and sets the value "embree_bytes".
   Tracer(const Scene& scene, Context& context);
   ~Tracer();
   Tracer(const Tracer&) = delete;
