@@ -163,11 +163,12 @@ double EmitterSampler::power() const { return impl_->rays.total(); }
 std::optional<EmitterDirection> EmitterSampler::sampleDirection(Vec3f p, Vec3f n, Vec3f u) const {
   const Impl& impl = *impl_;
   // The 24 bits of one number would not tell 10^6 emitters apart: more come from the other two.
-  const uint64_t low = hashCombine(std::bit_cast<uint32_t>(u.x), std::bit_cast<uint32_t>(u.y));
-  double choice = static_cast<double>(u.z) + static_cast<double>(low >> 40) * 0x1p-48;
+  const Vec2f place{u.y, u.z};
+  const uint64_t low = hashCombine(std::bit_cast<uint32_t>(u.y), std::bit_cast<uint32_t>(u.z));
+  double choice = static_cast<double>(u.x) + static_cast<double>(low >> 40) * 0x1p-48;
   for (const Impl::Infinite& light : impl.infinite) {
     const double probability = static_cast<double>(light.probability);
-    if (choice < probability) return impl.sampleInfinite(light, n, {u.x, u.y});
+    if (choice < probability) return impl.sampleInfinite(light, n, place);
     choice -= probability;
   }
   const double even = static_cast<double>(impl.uniformProbability);
@@ -177,13 +178,13 @@ std::optional<EmitterDirection> EmitterSampler::sampleDirection(Vec3f p, Vec3f n
     if (!chosen) return std::nullopt;
     const float probability = impl.treeProbability * chosen->probability +
                               impl.uniformProbability * impl.uniform.probability(chosen->light);
-    return impl.sampleFinite(chosen->light, probability, p, {u.x, u.y});
+    return impl.sampleFinite(chosen->light, probability, p, place);
   }
   if (!(even > 0)) return std::nullopt;  // rounding at the very end of [0,1)
   const double rest = std::clamp((choice - byTree) / even, 0.0, 1.0);
   const uint32_t light = static_cast<uint32_t>(
       impl.uniform.sample(std::min(static_cast<float>(rest), 0x1.fffffep-1f)));
-  return impl.sampleFinite(light, impl.probability(light, p, n), p, {u.x, u.y});
+  return impl.sampleFinite(light, impl.probability(light, p, n), p, place);
 }
 
 float EmitterSampler::pdfHit(Vec3f p, Vec3f n, const SurfacePoint& hit, Vec3f wi) const {

@@ -10,34 +10,37 @@
 
 namespace lobelia {
 
-struct EmitterDirection {   // light that may arrive at a point
-  Vec3f wi;                 // towards the emitter
-  float distance = 0;       // infinite (3e38) for environments and directional emitters
-  Vec3f target;             // end of the shadow ray (offset from the emitter's surface); finite only
-  Rgb weight;               // radiance / pdf, or intensity / (d^2 pmf): multiply by f |cos|
-  float pdf = 0;            // solid angle, selection included; 0 for delta
+struct EmitterDirection {  // light that may arrive at a point
+  Vec3f wi;                // towards the emitter
+  float distance = 0;      // infinite (3e38) for environments and directional emitters
+  Vec3f target;            // end of the shadow ray (offset from the emitter's surface); finite only
+  Rgb weight;              // radiance / pdf, or intensity / (d^2 pmf): multiply by f |cos|
+  float pdf = 0;           // solid angle, selection included; 0 for delta
   bool delta = false;
   uint32_t emitter = 0;
 };
 
-struct EmittedRay {         // a particle
-  Ray ray;                  // offset from its surface
-  Rgb power;                // flux of the particle: Le |cos| / pdf
-  Vec3f ng;                 // normal of the emitting surface; direction for the others
+struct EmittedRay {  // a particle
+  Ray ray;           // offset from its surface
+  Rgb power;         // flux of the particle: Le |cos| / pdf
+  Vec3f ng;          // normal of the emitting surface; direction for the others
   uint32_t emitter = 0;
-  bool infinite = false;    // environment and directional emitters
+  bool infinite = false;  // environment and directional emitters
 };
 
-// Chooses emitters (and triangles of area emitters) in proportion to power through alias tables;
-// area emitters seen from a point through a tree over their triangles, so that 10^6 emissive
-// triangles cost O(log n) and near ones are preferred (Conty Estevez and Kulla 2018). Spheres are
-// sampled by the cone they subtend; environments by an alias/2D table over solid angle.
+// Towards a point, finite emitters (each triangle of an area emitter for itself) are chosen through
+// a tree, so that 10^6 emissive triangles cost O(log n) and near ones are preferred (Conty Estevez
+// and Kulla 2018), mixed with a uniform choice; particles leave in proportion to flux. Spheres are
+// sampled by the cone they subtend; environments by luminance. All functions are thread-safe.
 class EmitterSampler {
  public:
   EmitterSampler(const Scene& scene, Bounds3f sceneBounds);
   ~EmitterSampler();
 
   bool empty() const;
+  // n: unit normal on the side that light counts from, or zero when it counts from both sides.
+  // u.x selects the emitter, (u.y, u.z) a place on it. Empty: nothing arrives (a sample of value
+  // 0).
   std::optional<EmitterDirection> sampleDirection(Vec3f p, Vec3f n, Vec3f u) const;
   // Density with which sampleDirection(p, n) returns the direction of this hit on an emitter.
   float pdfHit(Vec3f p, Vec3f n, const SurfacePoint& hit, Vec3f wi) const;
@@ -48,7 +51,7 @@ class EmitterSampler {
   Rgb escaped(Vec3f d) const;
 
   std::optional<EmittedRay> sampleRay(float uSelect, Vec2f uPosition, Vec2f uDirection) const;
-  double power() const;     // total flux (luminance) of what sampleRay draws from
+  double power() const;  // total flux (luminance) of what sampleRay draws from
 
   const Scene& scene() const;
 

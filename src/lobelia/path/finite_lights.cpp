@@ -10,7 +10,7 @@
 namespace lobelia {
 namespace {
 
-// Rounding of world coordinates, relative; offsetOrigin() moves by about this much.
+// Rounding of a sphere's world coordinates, relative.
 constexpr float kRelativeError = 4e-7f;
 
 float errorOf(Vec3f p) {
@@ -96,8 +96,13 @@ void FiniteLights::addInstance(uint32_t index) {
     if (!(area > 0) || !std::isfinite(area)) return;
     light.area = area;
     // Which side is outside (winding, mirrored transforms, flipped normals) is surfacePoint()'s.
-    const SurfacePoint at = surfacePoint(scene_, {0, 1 / 3.f, 1 / 3.f, index, light.triangle});
-    if (dot(light.normal(), at.ng) < 0) light.side = -1;
+    Vec3f ng;
+    for (const Vec2f b : {Vec2f{0, 0}, Vec2f{1, 0}, Vec2f{0, 1}}) {
+      const SurfacePoint at = surfacePoint(scene_, {0, b.x, b.y, index, light.triangle});
+      ng = at.ng;
+      light.error = std::max(light.error, at.error);
+    }
+    if (dot(light.normal(), ng) < 0) light.side = -1;
   });
   double area = 0;
   for (size_t t = first; t < triangles_.size(); ++t)
@@ -296,11 +301,6 @@ Rgb FiniteLights::intensity(const PointLight& light, Vec3f local) const {
          (kPi * emitter.scale / (cosine * cosine * cosine));
 }
 
-Vec3f FiniteLights::offset(const TriangleLight& light, Vec3f p, Vec3f n, Vec3f towards) const {
-  const float error = std::max({errorOf(light.p0), errorOf(light.e1), errorOf(light.e2)});
-  return offsetOrigin(p, n, error, towards);
-}
-
 std::optional<LightSample> FiniteLights::sample(uint32_t light, Vec3f p, Vec2f u) const {
   LightSample result;
   if (light < firstSphere()) {
@@ -314,7 +314,7 @@ std::optional<LightSample> FiniteLights::sample(uint32_t light, Vec3f p, Vec2f u
     result.wi = to / result.distance;
     const float cosine = -dot(n, result.wi);
     if (!(cosine > 0) || !(d2 > 0)) return std::nullopt;
-    result.target = offset(triangle, at, n, -result.wi);
+    result.target = offsetOrigin(at, n, triangle.error, -result.wi);
     result.value = radiance(triangle, b.x, b.y);
     result.pdf = d2 / (cosine * triangle.area);
     return result;
@@ -390,9 +390,8 @@ EmittedRay FiniteLights::sampleRay(uint32_t light, Vec2f uPosition, Vec2f uDirec
       out.power = radiance(sphere) * (4 * kPi * kPi * sphere.radius * sphere.radius);
     }
     out.ray.d = frameFromNormal(out.ng).toWorld(sampleHemisphereCosine(uDirection));
-    const float error = errorOf(at);
-    out.ray.o = light < firstSphere() ? offset(triangles_[light], at, out.ng, out.ray.d)
-                                      : offsetOrigin(at, out.ng, error, out.ray.d);
+    const float error = light < firstSphere() ? triangles_[light].error : errorOf(at);
+    out.ray.o = offsetOrigin(at, out.ng, error, out.ray.d);
     return out;
   }
   const PointLight& point = points_[light - firstPoint()];

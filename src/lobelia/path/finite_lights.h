@@ -12,8 +12,9 @@ namespace lobelia {
 struct TriangleLight {
   Vec3f p0, e1, e2;  // world space
   uint32_t instance = 0, triangle = 0;
-  float area = 0;  // 0: degenerate, never chosen
-  float side = 1;  // -1: e1 x e2 points away from the side that emits
+  float area = 0;   // 0: degenerate, never chosen
+  float error = 0;  // SurfacePoint::error, the largest of its corners
+  float side = 1;   // -1: e1 x e2 points away from the side that emits
   Vec3f normal() const { return cross(e1, e2) * (0.5f * side / area); }
 };
 
@@ -74,7 +75,6 @@ class FiniteLights {
   Rgb radiance(const SphereLight& light) const;
   float meanRadiance(const TriangleLight& light) const;
   Rgb intensity(const PointLight& light, Vec3f local) const;  // local need not be unit
-  Vec3f offset(const TriangleLight& light, Vec3f p, Vec3f n, Vec3f towards) const;
 
   const Scene& scene_;
   std::vector<TriangleLight> triangles_;

@@ -8,19 +8,19 @@ namespace lobelia {
 
 enum class Component : uint8_t { all, direct, indirect };
 
-struct PixelSet {           // which pixels of the data window are computed; empty: all
-  std::vector<uint32_t> pixels;   // sorted indices y * width + x into the data window
+struct PixelSet {                // which pixels of the data window are computed; empty: all
+  std::vector<uint32_t> pixels;  // sorted indices y * width + x into the data window
 };
 // N pixels spread over the data window by the seed (blue-noise-like: one per stratum).
 PixelSet spreadPixels(int width, int height, size_t count, uint64_t seed);
 
 struct PathSettings {
   int spp = 64;
-  int maxDepth = -1;              // Mitsuba's count; -1 unlimited
+  int maxDepth = -1;  // Mitsuba's count; -1 unlimited
   int rouletteDepth = 5;
   float specularLimit = 0.08f;
   Component component = Component::all;
-  double timeLimit = 0;           // seconds; 0: none. Samples are added in passes over the image.
+  double timeLimit = 0;  // seconds; 0: none. Samples are added in passes over the image.
   bool hideEmitters = false;
   PixelSet pixels;
 };

@@ -1,0 +1,200 @@
+// The picture by path tracing: samples are added in passes over the image, tile by tile in
+// parallel, so that a time limit or a cancellation leaves an unbiased mean of what each pixel has.
+// A pixel belongs to one tile and its samples are added in order: the result does not depend on the
+// number of threads.
+#include "lobelia/path/path_tracer.h"
+
+#include <atomic>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/path/path_walk.h"
+
+namespace lobelia {
+namespace {
+
+constexpr int kTile = 16;
+constexpr int kSamplesPerPass = 8;
+constexpr int64_t kProgressInterval = 200'000'000;  // nanoseconds
+
+struct PixelSum {
+  double direct[3] = {}, indirect[3] = {}, square[3] = {};
+  uint32_t count = 0;
+};
+struct GuideSum {  // layers that describe the first surface
+  float albedo[3] = {}, normal[3] = {}, depth = 0;
+};
+
+class PathPasses {
+ public:
+  PathPasses(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+             const PathSettings& settings, Film& film, Context& context)
+      : walk_(tracer, emitters, settings),
+        camera_(camera),
+        settings_(settings),
+        film_(film),
+        context_(context),
+        sums_(film.pixelCount()),
+        start_(nanosecondsNow()) {
+    if (film.layers.contains("albedo") || film.layers.contains("normal") ||
+        film.layers.contains("depth")) {
+      guides_.resize(film.pixelCount());
+    }
+    const uint32_t width = static_cast<uint32_t>(film.width);
+    const uint32_t height = static_cast<uint32_t>(film.height);
+    if (!settings.pixels.pixels.empty()) {
+      constexpr size_t kGroup = 64;
+      const auto& pixels = settings.pixels.pixels;
+      for (size_t i = 0; i < pixels.size(); i += kGroup) {
+        tiles_.emplace_back(
+            pixels.begin() + static_cast<ptrdiff_t>(i),
+            pixels.begin() + static_cast<ptrdiff_t>(std::min(i + kGroup, pixels.size())));
+      }
+      return;
+    }
+    for (uint32_t ty = 0; ty < height; ty += kTile) {
+      for (uint32_t tx = 0; tx < width; tx += kTile) {
+        auto& tile = tiles_.emplace_back();
+        for (uint32_t y = ty; y < std::min(ty + kTile, height); ++y) {
+          for (uint32_t x = tx; x < std::min(tx + kTile, width); ++x) tile.push_back(y * width + x);
+        }
+      }
+    }
+  }
+
+  void run() {
+    // The first passes are short: a limited render should have every pixel soon.
+    for (int first = 0, size = 1; first < settings_.spp && !stopped(first > 0); first += size) {
+      if (first > 1) size = std::min(2 * size, kSamplesPerPass);
+      const int last = std::min(first + size, settings_.spp);
+      std::atomic<size_t> done{0};
+      parallelFor(tiles_.size(), 1, [&](size_t t) {
+        if (stopped(first > 0)) return;
+        addSamples(tiles_[t], first, last);
+        const double part = static_cast<double>(++done) / static_cast<double>(tiles_.size());
+        report((first + part * (last - first)) / settings_.spp);
+      });
+    }
+  }
+
+  void write() {
+    write("", [](const PixelSum& s, size_t c) { return s.direct[c] + s.indirect[c]; });
+    write("direct", [](const PixelSum& s, size_t c) { return s.direct[c]; });
+    write("indirect", [](const PixelSum& s, size_t c) { return s.indirect[c]; });
+    // Of the mean: sum (x - mean)^2 / (n (n - 1)); times n, as write() divides by it.
+    write("variance", [](const PixelSum& s, size_t c) {
+      if (s.count < 2) return 0.0;
+      const double sum = s.direct[c] + s.indirect[c], n = s.count;
+      return std::max(0.0, s.square[c] - sum * sum / n) / (n - 1);
+    });
+    if (guides_.empty()) return;
+    writeGuide("albedo", [](const GuideSum& g, size_t c) { return g.albedo[c]; });
+    writeGuide("normal", [](const GuideSum& g, size_t c) { return g.normal[c]; });
+    writeGuide("depth", [](const GuideSum& g, size_t) { return g.depth; });
+  }
+
+ private:
+  double seconds() const { return static_cast<double>(nanosecondsNow() - start_) * 1e-9; }
+  bool stopped(bool timed) const {
+    return context_.cancelled() ||
+           (timed && settings_.timeLimit > 0 && seconds() > settings_.timeLimit);
+  }
+
+  void report(double fraction) {
+    const int64_t now = nanosecondsNow();
+    int64_t last = reported_.load(std::memory_order_relaxed);
+    if (now - last < kProgressInterval || !reported_.compare_exchange_strong(last, now)) return;
+    if (settings_.timeLimit > 0) fraction = std::max(fraction, seconds() / settings_.timeLimit);
+    context_.progress("path", std::min(fraction, 1.0));
+  }
+
+  void addSamples(const std::vector<uint32_t>& tile, int first, int last) {
+    PathCounts counts;
+    const uint32_t width = static_cast<uint32_t>(film_.width);
+    for (const uint32_t pixel : tile) {
+      const uint32_t x = static_cast<uint32_t>(film_.x0) + pixel % width;
+      const uint32_t y = static_cast<uint32_t>(film_.y0) + pixel / width;
+      const uint64_t stream = (static_cast<uint64_t>(y) << 32) | x;
+      for (int sample = first; sample < last; ++sample) {
+        PathRandom random(context_.seed, stream, static_cast<uint32_t>(sample));
+        float weight;
+        const Vec2f offset =
+            sampleFilter(camera_.filter, camera_.filterRadius, random.next2D(), &weight);
+        const Vec2f position{static_cast<float>(x) + 0.5f + offset.x,
+                             static_cast<float>(y) + 0.5f + offset.y};
+        const Ray ray = generateRay(camera_, position, random.next2D());
+        add(pixel, walk_.trace(ray, random, counts), weight);
+      }
+    }
+    context_.statistics.addCount("path_rays", counts.pathRays);
+    context_.statistics.addCount("shadow_rays", counts.shadowRays);
+    context_.statistics.addCount("nonfinite", counts.nonFinite);
+  }
+
+  void add(uint32_t pixel, const PathResult& result, float weight) {
+    PixelSum& sum = sums_[pixel];
+    ++sum.count;
+    for (int c = 0; c < 3; ++c) {
+      const double direct = static_cast<double>(weight * result.direct[c]);
+      const double indirect = static_cast<double>(weight * result.indirect[c]);
+      sum.direct[c] += direct;
+      sum.indirect[c] += indirect;
+      sum.square[c] += (direct + indirect) * (direct + indirect);
+    }
+    if (guides_.empty()) return;
+    GuideSum& guide = guides_[pixel];
+    for (int c = 0; c < 3; ++c) {
+      guide.albedo[c] += weight * result.albedo[c];
+      guide.normal[c] += weight * result.normal[c];
+    }
+    guide.depth += weight * result.depth;
+  }
+
+  template <class F>
+  void writeLayer(const char* name, const F& value) {
+    const auto layer = film_.layers.find(name);
+    if (layer == film_.layers.end()) return;
+    const size_t channels = static_cast<size_t>(layer->second.channels);
+    for (size_t i = 0; i < sums_.size(); ++i) {
+      if (sums_[i].count == 0) continue;
+      for (size_t c = 0; c < std::min<size_t>(channels, 3); ++c) {
+        layer->second.values[i * channels + c] +=
+            static_cast<float>(static_cast<double>(value(i, c)) / sums_[i].count);
+      }
+    }
+  }
+  template <class F>
+  void write(const char* name, const F& value) {
+    writeLayer(name, [&](size_t i, size_t c) { return value(sums_[i], c); });
+  }
+  template <class F>
+  void writeGuide(const char* name, const F& value) {
+    writeLayer(name, [&](size_t i, size_t c) { return value(guides_[i], c); });
+  }
+
+  const PathWalk walk_;
+  const Camera& camera_;
+  const PathSettings& settings_;
+  Film& film_;
+  Context& context_;
+  std::vector<std::vector<uint32_t>> tiles_;  // pixels
+  std::vector<PixelSum> sums_;
+  std::vector<GuideSum> guides_;
+  const int64_t start_;
+  std::atomic<int64_t> reported_{0};
+};
+
+}  // namespace
+
+void renderPath(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+                const PathSettings& settings, Film& film, Context& context) {
+  const StageTimer timer(context, "path");
+  if (!settings.pixels.pixels.empty()) {
+    film.alpha.assign(film.pixelCount(), 0.f);
+    for (const uint32_t pixel : settings.pixels.pixels) film.alpha[pixel] = 1;
+  }
+  PathPasses passes(tracer, emitters, camera, settings, film, context);
+  passes.run();
+  passes.write();
+}
+
+}  // namespace lobelia
