@@ -1,0 +1,184 @@
+// Emitters of Mitsuba scenes: area, point, spot, directional, constant, envmap, projector.
+
+#include "lobelia/io/image_io.h"
+#include "lobelia/io/mitsuba_reader.h"
+
+namespace lobelia::io::mitsuba {
+namespace {
+
+constexpr float kDegree = kPi / 180;
+
+const std::vector<std::string>& emitterTypes() {
+  static const std::vector<std::string> types{"area",     "point",  "spot",     "directional",
+                                              "constant", "envmap", "projector"};
+  return types;
+}
+
+bool isSurrounding(const Emitter& e) {
+  return e.type == EmitterType::constant || e.type == EmitterType::environment;
+}
+
+// Sampling weights and the like steer other renderers' sampling only.
+void ignoreSampling(Object& object) {
+  object.ignore({"sampling_weight", "mis_compensation", "cache", "id"});
+}
+
+Transform placement(Object& object) {
+  const std::optional<Mat4> matrix = object.transform("to_world");
+  return matrix ? makeTransform(*matrix) : Transform();
+}
+
+void refuseBoth(Object& object, const std::string& name) {
+  if (object.has(name) && object.has("to_world")) {
+    throw InputError(object.where(), "both " + name + " and to_world are given; give one of them");
+  }
+}
+
+}  // namespace
+
+EmitterHandle Reader::add(Emitter emitter) {
+  if (isSurrounding(emitter)) {
+    for (const Emitter& other : scene_.emitters) {
+      if (isSurrounding(other)) {
+        throw InputError({scene_.file, 0, 0},
+                         "there are two environment emitters; a scene can have one");
+      }
+    }
+  }
+  scene_.emitters.push_back(std::move(emitter));
+  return {static_cast<uint32_t>(scene_.emitters.size() - 1)};
+}
+
+EmitterHandle Reader::areaEmitter(const Element& element) {
+  if (const auto known = areaEmitters_.find(&element); known != areaEmitters_.end()) {
+    return known->second;
+  }
+  Object object = open(element);
+  if (object.type() != "area") {
+    throw InputError(object.where(),
+                     "the emitter '" + object.type() + "' cannot be a shape's; only 'area' can");
+  }
+  Emitter e;
+  e.type = EmitterType::area;
+  e.name = object.id();
+  e.radiance = color(object, "radiance", Rgb(1.f), SpectrumUse::emission);
+  ignoreSampling(object);
+  object.finish();
+  const EmitterHandle handle = add(std::move(e));
+  areaEmitters_.emplace(&element, handle);
+  return handle;
+}
+
+void Reader::emitter(const Element& element) {
+  Object object = open(element);
+  const std::string& type = object.type();
+  Emitter e;
+  if (type == "point") {
+    e.type = EmitterType::point;
+    refuseBoth(object, "position");
+    e.toWorld = placement(object);
+    if (const std::optional<Vec3d> p = object.vector("position")) {
+      e.toWorld = makeTransform(translation(*p));
+    }
+    e.radiance = color(object, "intensity", Rgb(1.f), SpectrumUse::emission);
+  } else if (type == "spot") {
+    e.type = EmitterType::spot;
+    e.toWorld = placement(object);
+    e.radiance = color(object, "intensity", Rgb(1.f), SpectrumUse::emission);
+    const float cutoff = object.number("cutoff_angle", 20.f);
+    const float beam = object.number("beam_width", cutoff * 0.75f);
+    if (!(cutoff > 0 && cutoff <= 90 && beam >= 0 && beam <= cutoff)) {
+      throw InputError(object.where(),
+                       "the spot's angles are impossible; 0 <= beam_width <= cutoff_angle <= 90");
+    }
+    e.cutoff = cutoff * kDegree;
+    e.beamWidth = beam * kDegree;
+    if (const Element* pattern = object.property("texture")) {
+      const ColorParam param = color(*pattern, SpectrumUse::emission);
+      if (param.texture.valid()) {
+        e.pattern = param.texture;
+      } else if (e.radiance.texture.valid()) {
+        findings_.warn(pattern->where, "the spot's constant texture is ignored");
+      } else {
+        e.radiance.value *= param.value;
+      }
+    }
+  } else if (type == "directional") {
+    e.type = EmitterType::directional;
+    refuseBoth(object, "direction");
+    e.toWorld = placement(object);
+    Vec3f direction = e.toWorld.vector({0, 0, 1});
+    if (const std::optional<Vec3d> d = object.vector("direction")) {
+      direction = {static_cast<float>(d->x), static_cast<float>(d->y), static_cast<float>(d->z)};
+      if (lengthSquared(*d) == 0) throw InputError(object.where(), "the direction is zero");
+    }
+    e.direction = normalize(direction);
+    e.radiance = color(object, "irradiance", Rgb(1.f), SpectrumUse::emission);
+  } else if (type == "constant") {
+    e.type = EmitterType::constant;
+    e.radiance = color(object, "radiance", Rgb(1.f), SpectrumUse::emission);
+    object.ignore({"to_world"});
+  } else if (type == "envmap") {
+    e = environment(object);
+  } else if (type == "projector") {
+    e = projector(object);
+  } else if (type == "area") {
+    throw InputError(object.where(), "an area emitter belongs inside a shape");
+  } else {
+    unknownType(object, emitterTypes());
+  }
+  e.name = object.id();
+  ignoreSampling(object);
+  object.finish();
+  add(std::move(e));
+}
+
+Emitter Reader::environment(Object& object) {
+  Emitter e;
+  e.type = EmitterType::environment;
+  e.toWorld = placement(object);
+  e.scale = object.number("scale", 1.f);
+  if (e.scale < 0) throw InputError(object.where(), "the envmap's scale is negative");
+  const std::optional<std::string> file = object.string("filename");
+  if (!file) throw InputError(object.where(), "the envmap has no filename");
+  e.image = image(*file, false, std::max(object.number("gamma", 0.f), 0.f), object.where());
+  return e;
+}
+
+Emitter Reader::projector(Object& object) {
+  Emitter e;
+  e.type = EmitterType::projector;
+  e.toWorld = placement(object);
+  e.scale = object.number("scale", 1.f);
+  if (!object.has("irradiance")) {
+    throw InputError(object.where(), "the projector has no irradiance; give it a texture");
+  }
+  e.radiance = color(object, "irradiance", Rgb(1.f), SpectrumUse::emission);
+  double aspect = 1;
+  if (e.radiance.texture.valid()) {
+    const Texture& texture = scene_[e.radiance.texture];
+    if (texture.type == TextureType::bitmap) {
+      aspect = static_cast<double>(scene_[texture.image].width) / scene_[texture.image].height;
+    }
+  }
+  e.fov = fieldOfView(object, aspect);
+  return e;
+}
+
+// Handles of the other emitters stay valid: an emitter there is replaced in its place.
+void Reader::setEnvironment(const std::string& file) {
+  Emitter e;
+  e.type = EmitterType::environment;
+  e.name = "environment";
+  scene_.images.push_back(readImage(file, {}, {}));
+  e.image = {static_cast<uint32_t>(scene_.images.size() - 1)};
+  for (Emitter& other : scene_.emitters) {
+    if (isSurrounding(other)) {
+      other = std::move(e);
+      return;
+    }
+  }
+  add(std::move(e));
+}
+
+}  // namespace lobelia::io::mitsuba
