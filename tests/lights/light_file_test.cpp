@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "lobelia/base/error.h"
+#include "lobelia/base/random.h"
+#include "lobelia/lights/light_pass.h"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LightFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        fs::temp_directory_path() /
+        ("lobelia-lights-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+         ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+    file_ = (folder_ / "lights.dat").string();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static VirtualLights someLights() {
+    VirtualLights lights;
+    lights.model = "glossy";
+    lights.sceneHash = 0x1234567890abcdefull;
+    lights.seed = 17;
+    lights.particles = 4711;
+    lights.omni.push_back({{1, 2, 3}, {4, 5, 6}, 7});
+    lights.directional.push_back({{0, 1, 0}, {1, 2, 3}});
+    Rng random(3);
+    for (uint32_t i = 0; i < 1000; ++i) {
+      const Vec3f p(random.next1D(), random.next1D(), random.next1D());
+      lights.diffuse.push_back({p, p * 2.f, random.nextUint(), i < 600 ? 1u : 3u});
+      lights.glossy.push_back({p, {0, 0, 1}, {1, 0, 0}, p, 100 * random.next1D()});
+    }
+    lights.diffuseDepthEnds = {0, 600, 600, 1000};
+    lights.glossyDepthEnds = {0, 1000};
+    return lights;
+  }
+
+  std::string message(uint64_t hash) const {
+    try {
+      loadLights(file_, hash);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+  std::string file_;
+};
+
+template <class T>
+bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+TEST_F(LightFile, RoundTrip) {
+  const VirtualLights lights = someLights();
+  saveLights(file_, lights);
+  const VirtualLights read = loadLights(file_, lights.sceneHash);
+  EXPECT_EQ(read.model, "glossy");
+  EXPECT_EQ(read.sceneHash, lights.sceneHash);
+  EXPECT_EQ(read.seed, 17u);
+  EXPECT_EQ(read.particles, 4711u);
+  EXPECT_TRUE(sameBytes(read.omni, lights.omni));
+  EXPECT_TRUE(sameBytes(read.directional, lights.directional));
+  EXPECT_TRUE(sameBytes(read.diffuse, lights.diffuse));
+  EXPECT_TRUE(sameBytes(read.glossy, lights.glossy));
+  EXPECT_EQ(read.diffuseDepthEnds, lights.diffuseDepthEnds);
+  EXPECT_EQ(read.glossyDepthEnds, lights.glossyDepthEnds);
+}
+
+TEST_F(LightFile, NoLightsAtAll) {
+  VirtualLights none;
+  none.model = "vpl";
+  saveLights(file_, none);
+  EXPECT_EQ(loadLights(file_, 0).size(), 0u);
+}
+
+TEST_F(LightFile, RefusesAnotherScene) {
+  saveLights(file_, someLights());
+  const std::string text = message(1);
+  EXPECT_NE(text.find("another scene"), std::string::npos) << text;
+  EXPECT_NE(text.find("lights.dat"), std::string::npos) << text;
+}
+
+TEST_F(LightFile, RefusesDamagedAndCutFiles) {
+  const VirtualLights lights = someLights();
+  saveLights(file_, lights);
+  std::string bytes;
+  {
+    std::ifstream in(file_, std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  ASSERT_GT(bytes.size(), 1000u);
+  const auto write = [&](const std::string& content) {
+    std::ofstream(file_, std::ios::binary | std::ios::trunc) << content;
+  };
+  for (size_t at = 0; at < bytes.size(); at += bytes.size() / 97) {
+    std::string broken = bytes;
+    broken[at] = static_cast<char>(broken[at] ^ 0x10);
+    write(broken);
+    EXPECT_THROW(loadLights(file_, lights.sceneHash), InputError) << "byte " << at;
+  }
+  for (const size_t size : {size_t{0}, size_t{5}, bytes.size() / 2, bytes.size() - 1}) {
+    write(bytes.substr(0, size));
+    EXPECT_THROW(loadLights(file_, lights.sceneHash), InputError) << "cut to " << size;
+  }
+  EXPECT_THROW(loadLights((folder_ / "absent").string(), 0), InputError);
+}
+
+TEST_F(LightFile, RefusesRecordsThatMakeNoSense) {
+  VirtualLights lights = someLights();
+  lights.diffuseDepthEnds = {0, 900};
+  saveLights(file_, lights);
+  EXPECT_NE(message(lights.sceneHash).find("depths of the diffuse"), std::string::npos);
+
+  lights = someLights();
+  lights.glossy[5].axis = {0, 0, 3};
+  saveLights(file_, lights);
+  EXPECT_NE(message(lights.sceneHash).find("record"), std::string::npos);
+
+  lights = someLights();
+  lights.diffuse[5].intensity.y = std::numeric_limits<float>::quiet_NaN();
+  saveLights(file_, lights);
+  EXPECT_NE(message(lights.sceneHash).find("record"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lobelia
