@@ -1,6 +1,6 @@
 // Mitsuba 3's spot (falls linearly in the angle; its picture lies on the tangent plane of the
-// cutoff) and projector (irradiance pi times the picture on the plane at distance one, square
-// pixels). The twin that path tracing samples is path/finite_lights.cpp.
+// cutoff) and projector (its picture lies on the plane at distance one, with square pixels). The
+// twin that path tracing samples is path/finite_lights.cpp.
 #include "lobelia/gather/emission_pattern.h"
 
 #include <cmath>
@@ -39,9 +39,7 @@ Rgb projectorPattern(const Scene& scene, const Emitter& emitter, Vec3f local) {
   at.uv = {0.5f - 0.5f * local.x / (local.z * tanX), 0.5f - 0.5f * local.y / (local.z * tanY)};
   if (at.uv.x < 0 || at.uv.x > 1 || at.uv.y < 0 || at.uv.y > 1) return {};
   const float cosine = local.z / length(local);
-  const float factor = kPi / (cosine * cosine * cosine);
-  if (!emitter.radiance.texture.valid()) return Rgb(factor);
-  return evaluate(scene, emitter.radiance, at) * factor;
+  return evaluate(scene, emitter.radiance, at) / (cosine * cosine * cosine);
 }
 
 }  // namespace

@@ -6,8 +6,7 @@
 namespace lobelia::gather {
 
 // Factor to OmniLight::intensity towards `direction` (world space, away from the emitter, any
-// length): falloff and texture of a spot; of a projector pi / cos^3 and its picture (the intensity
-// of a projector with a picture is its scale alone); 1 for others.
+// length): falloff and picture of a spot; a projector's picture / cos^3; 1 for others.
 Rgb emissionPattern(const Scene& scene, uint32_t emitter, Vec3f direction);
 
 }  // namespace lobelia::gather

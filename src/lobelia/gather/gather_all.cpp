@@ -132,7 +132,7 @@ class TileGather {
 // may, in rare rounding cases, depend on its companions in a packet.
 size_t tilePoints(size_t points) {
   size_t size = kMaxTilePoints;
-  while (size > kStrip && points / size < 128) size /= 2;
+  while (size > kStrip && points / size < 32) size /= 2;
   return size;
 }
 
