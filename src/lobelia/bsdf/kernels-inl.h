@@ -251,7 +251,7 @@ LOBELIA_HD V3<F> evaluatePrincipledDiffuse(const LobeParameters<F>& p, const Sid
   const F flat = F(1.25f) * (fss * (F(1.f) / max(ci + co, F(1e-6f)) - F(0.5f)) + F(0.5f));
   const F both = diffuse + retro;
   const F f = (both + (flat - both) * flatness) * F(1.f / 3.14159265358979f);
-  return (p.weight * f + p.tint * (sheen * schlickWeight(abs(cd)))) * ci;
+  return p.weight * (p.k * f + p.tint * (sheen * schlickWeight(abs(cd)))) * ci;
 }
 
 template <class F>

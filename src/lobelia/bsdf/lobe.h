@@ -56,7 +56,7 @@ struct Lobe {
   const float* table = nullptr;
   Rgb parameters{};  // principledDiffuse: roughness, flatness, sheen; else see Fresnel.
                      // microfacetTransmission: z scales its share of the joint sampling
-  Rgb tint{};        // principledDiffuse: sheen colour; else see Fresnel
+  Rgb tint{};        // principledDiffuse: sheen colour (k: base colour); else see Fresnel
 };
 inline constexpr int kTransmittanceSize = 64;
 
@@ -64,6 +64,10 @@ inline constexpr int kMaxLobes = 8;
 struct Bsdf {
   Frame frame;        // shading frame, n on the outside of the surface (not flipped to wo)
   Vec3f ng{0, 0, 1};  // geometric normal, on the same side as frame.n's surface outside
+  // Shading normal before bump and normal maps; where the two disagree about the side of a
+  // direction there is no reflection.
+  Vec3f baseNormal{0, 0, 1};
+  bool perturbed = false;
   int lobeCount = 0;
   Lobe lobes[kMaxLobes];
   void add(const Lobe& lobe) {

@@ -1,0 +1,239 @@
+// A Bsdf as the mixture of its lobes. Lobes are chosen by Lobe::selection among those of the set
+// that act for wo; densities are those of the whole mixture (balance heuristic over lobes). The two
+// lobes of a rough interface (Lobe::variant) are one choice: see sampleInterface().
+#include "lobelia/bsdf/bsdf.h"
+
+#include <cmath>
+
+#include "lobelia/bsdf/albedo.h"
+#include "lobelia/bsdf/lobe_sampling.h"
+#include "lobelia/bsdf/scalar_lobe.h"
+
+namespace lobelia {
+namespace {
+
+bool inSet(const Lobe& lobe, LobeSet set) {
+  const auto bit = lobe.sharp ? LobeSet::sharp : LobeSet::rough;
+  return (static_cast<uint8_t>(set) & static_cast<uint8_t>(bit)) != 0;
+}
+
+// First of the two lobes of a rough interface, both of which take part?
+bool isInterfacePair(const Bsdf& bsdf, int i) {
+  return bsdf.lobes[i].type == LobeType::microfacetReflection && bsdf.lobes[i].variant == 1 &&
+         i + 1 < bsdf.lobeCount && bsdf.lobes[i].sharp == bsdf.lobes[i + 1].sharp;
+}
+
+float totalSelection(const Bsdf& bsdf, float cosThetaO, LobeSet set) {
+  float total = 0;
+  for (int i = 0; i < bsdf.lobeCount; ++i) {
+    const Lobe& lobe = bsdf.lobes[i];
+    if (inSet(lobe, set) && isActive(lobe, cosThetaO)) total += lobe.selection;
+  }
+  return total;
+}
+
+// Are perturbed and unperturbed normal on the same side of the direction?
+bool agrees(const Bsdf& bsdf, Vec3f w, float cosPerturbed) {
+  return !bsdf.perturbed || dot(w, bsdf.baseNormal) * cosPerturbed > 0;
+}
+
+// Adjoint of a BSDF with shading normals, Veach 1997, section 5.3.2.
+float shadingNormalCorrection(const Bsdf& bsdf, Vec3f wo, Vec3f wi) {
+  const float numerator = std::abs(dot(wo, bsdf.frame.n) * dot(wi, bsdf.ng));
+  const float denominator = std::abs(dot(wo, bsdf.ng) * dot(wi, bsdf.frame.n));
+  return denominator > 0 ? numerator / denominator : 0.f;
+}
+
+// Factor from radiance to importance transport of a direction pair.
+float importanceFactor(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, Vec3f wi) {
+  float factor = shadingNormalCorrection(bsdf, wo, wi);
+  if (lobe.type == LobeType::microfacetTransmission || lobe.type == LobeType::deltaTransmission)
+    factor *= sqr(relativeEta(lobe, dot(wo, bsdf.frame.n) < 0));
+  return factor;
+}
+
+float mixturePdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set) {
+  float sum = 0;
+  for (int i = 0; i < bsdf.lobeCount; ++i) {
+    const Lobe& lobe = bsdf.lobes[i];
+    if (!inSet(lobe, set) || !isActive(lobe, wo.z) || isDelta(lobe)) continue;
+    if (isInterfacePair(bsdf, i)) {
+      const Lobe& other = bsdf.lobes[++i];
+      sum += (lobe.selection + other.selection) * interfacePdf(lobe, other, wo, wi);
+    } else {
+      sum += lobe.selection * lobePdf(lobe, wo, wi);
+    }
+  }
+  return sum;
+}
+
+// Direction of a delta lobe and its factor f |cos|, radiance transport.
+struct DeltaEvent {
+  Vec3f wi;
+  Rgb value;
+  float eta = 1;
+};
+std::optional<DeltaEvent> deltaEvent(const Lobe& lobe, Vec3f wo) {
+  const bool behind = wo.z < 0;
+  const Vec3f w = behind ? flipZ(wo) : wo;
+  DeltaEvent event;
+  if (lobe.type == LobeType::deltaReflection) {
+    event.wi = {-w.x, -w.y, w.z};
+    event.value = lobe.weight * fresnelOf(lobe, w.z, behind && lobe.interface);
+  } else if (lobe.type == LobeType::null) {
+    event.wi = -w;
+    event.value = lobe.weight;
+    if (lobe.fresnel != Fresnel::one) event.value *= Rgb(1.f) - fresnelOf(lobe, w.z, false);
+  } else {
+    event.eta = relativeEta(lobe, behind);
+    const auto refracted = refract(w, Vec3f(0, 0, 1), event.eta);
+    if (!refracted) return std::nullopt;
+    event.wi = *refracted;
+    event.value = lobe.weight * ((1 - core::fresnelDielectric(w.z, event.eta)) / sqr(event.eta));
+  }
+  if (behind) event.wi = flipZ(event.wi);
+  return event;
+}
+
+// o, i: wo, wi in the frame. Taken apart from the world's directions because rounding them matters
+// where alpha is 1e-4.
+Rgb evaluateLocal(const Bsdf& bsdf, Vec3f wo, Vec3f wi, Vec3f o, Vec3f i, LobeSet set,
+                  Transport transport) {
+  Rgb sum{};
+  for (int l = 0; l < bsdf.lobeCount; ++l) {
+    const Lobe& lobe = bsdf.lobes[l];
+    if (!inSet(lobe, set) || isDelta(lobe)) continue;
+    const Rgb value = evaluateLobe(lobe, o, i);
+    if (transport == Transport::radiance) {
+      sum += value;
+    } else {
+      sum += value * importanceFactor(bsdf, lobe, wo, wi);
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+Rgb evaluate(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set, Transport transport) {
+  const Vec3f o = bsdf.frame.toLocal(wo), i = bsdf.frame.toLocal(wi);
+  if (!agrees(bsdf, wi, i.z)) return {};
+  return evaluateLocal(bsdf, wo, wi, o, i, set, transport);
+}
+
+float pdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set) {
+  const Vec3f o = bsdf.frame.toLocal(wo), i = bsdf.frame.toLocal(wi);
+  const float total = totalSelection(bsdf, o.z, set);
+  if (!(total > 0) || !agrees(bsdf, wi, i.z)) return 0;
+  return mixturePdf(bsdf, o, i, set) / total;
+}
+
+std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f u, LobeSet set,
+                                 Transport transport) {
+  const Vec3f o = bsdf.frame.toLocal(wo);
+  const float total = totalSelection(bsdf, o.z, set);
+  if (!(total > 0)) return std::nullopt;
+
+  // The last lobe that takes part catches what rounding leaves over.
+  float target = uLobe * total, share = 0;
+  int chosen = -1;
+  bool pair = false;
+  for (int i = 0; i < bsdf.lobeCount; ++i) {
+    const Lobe& lobe = bsdf.lobes[i];
+    if (!inSet(lobe, set) || !isActive(lobe, o.z)) continue;
+    if (chosen >= 0) target -= share;
+    chosen = i;
+    pair = isInterfacePair(bsdf, i);
+    share = lobe.selection;
+    if (pair) share += bsdf.lobes[++i].selection;
+    if (target < share) break;
+  }
+  const Lobe& lobe = bsdf.lobes[chosen];
+  const float remapped = std::clamp(target / share, 0.f, 0x1.fffffep-1f);
+
+  BsdfSample result;
+  result.sharp = lobe.sharp;
+  if (isDelta(lobe)) {
+    const auto event = deltaEvent(lobe, o);
+    if (!event) return std::nullopt;
+    result.wi = normalize(bsdf.frame.toWorld(event->wi));
+    result.delta = true;
+    result.transmission = isTransmission(lobe);
+    result.eta = event->eta;
+    result.weight = event->value * (total / share);
+    // Straight on is straight on whatever the normals are.
+    if (lobe.type == LobeType::null) {
+      result.wi = -wo;
+      return result;
+    }
+    if (!agrees(bsdf, result.wi, event->wi.z)) return std::nullopt;
+    if (transport == Transport::importance)
+      result.weight *= importanceFactor(bsdf, lobe, wo, result.wi);
+    if (maxComponent(result.weight) <= 0) return std::nullopt;
+    return result;
+  }
+
+  const auto i =
+      pair ? sampleInterface(lobe, bsdf.lobes[chosen + 1], o, remapped, u) : sampleLobe(lobe, o, u);
+  if (!i) return std::nullopt;
+  result.wi = bsdf.frame.toWorld(*i);
+  if (!agrees(bsdf, result.wi, i->z)) return std::nullopt;
+  result.pdf = mixturePdf(bsdf, o, *i, set) / total;
+  if (!(result.pdf > 0) || !std::isfinite(result.pdf)) return std::nullopt;
+  result.transmission = i->z * o.z < 0;
+  if (result.transmission && (pair || lobe.type == LobeType::microfacetTransmission))
+    result.eta = relativeEta(lobe, o.z < 0);
+  result.weight = evaluateLocal(bsdf, wo, result.wi, o, *i, set, transport) / result.pdf;
+  if (!(maxComponent(result.weight) > 0)) return std::nullopt;
+  return result;
+}
+
+bool hasLobes(const Bsdf& bsdf, LobeSet set) {
+  for (int i = 0; i < bsdf.lobeCount; ++i)
+    if (inSet(bsdf.lobes[i], set)) return true;
+  return false;
+}
+
+bool onlyDelta(const Bsdf& bsdf) {
+  for (int i = 0; i < bsdf.lobeCount; ++i)
+    if (!isDelta(bsdf.lobes[i])) return false;
+  return true;
+}
+
+Rgb albedo(const Bsdf& bsdf, Vec3f wo, LobeSet set) {
+  const float cosine = dot(wo, bsdf.frame.n);
+  Rgb sum{};
+  for (int i = 0; i < bsdf.lobeCount; ++i)
+    if (inSet(bsdf.lobes[i], set)) sum += lobeAlbedo(bsdf.lobes[i], cosine);
+  return sum;
+}
+
+float roughness(const Lobe& lobe) {
+  switch (lobe.type) {
+    case LobeType::lambert:
+    case LobeType::coatedDiffuse:
+    case LobeType::principledDiffuse:
+    case LobeType::diffuseTransmission:
+      return 1;
+    case LobeType::microfacetReflection:
+    case LobeType::microfacetTransmission:
+    case LobeType::ward:
+      return std::sqrt(lobe.alphaX * lobe.alphaY);
+    case LobeType::phong:
+      return std::sqrt(2 / (lobe.alphaX + 2));
+    case LobeType::deltaReflection:
+    case LobeType::deltaTransmission:
+    case LobeType::null:
+      break;
+  }
+  return 0;
+}
+
+void classify(Bsdf& bsdf, float specularLimit) {
+  for (int i = 0; i < bsdf.lobeCount; ++i) {
+    Lobe& lobe = bsdf.lobes[i];
+    lobe.sharp = isDelta(lobe) || roughness(lobe) < specularLimit;
+  }
+}
+
+}  // namespace lobelia

@@ -1,0 +1,18 @@
+// Lobes of the materials that scatter themselves (those that wrap others: make_bsdf.cpp).
+#pragma once
+
+#include "lobelia/bsdf/lobe.h"
+#include "lobelia/scene/shading.h"
+
+namespace lobelia {
+
+// Adds the lobes of a material to the BSDF, scaled by `weight`, with sampling shares for directions
+// with this cosine of wo to bsdf.frame.n. twoSided: inside a two-sided material.
+void addLobes(const Scene& scene, const Material& material, const TextureContext& at,
+              float cosThetaO, float weight, bool twoSided, Bsdf& bsdf);
+
+// The principled material (material_principled.cpp).
+void addPrincipledLobes(const Scene& scene, const Material& material, const TextureContext& at,
+                        float weight, bool twoSided, Bsdf& bsdf);
+
+}  // namespace lobelia
