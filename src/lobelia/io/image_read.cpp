@@ -1,0 +1,80 @@
+// Textures and environments: image files to scene-linear pixels.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lobelia/io/image_io.h"
+#include "lobelia/io/image_pixels.h"
+
+namespace lobelia::io {
+namespace {
+
+// Which stored channels make the image: (R, G, B[, A]), (grey) or (grey, grey, grey, A).
+std::vector<size_t> selectChannels(const StoredImage& stored) {
+  const auto find = [&](const char* name) {
+    const auto it = std::find(stored.channels.begin(), stored.channels.end(), name);
+    return static_cast<size_t>(it - stored.channels.begin());
+  };
+  const size_t n = stored.channels.size(), alpha = find("A");
+  const size_t r = find("R"), g = find("G"), b = find("B");
+  if (r < n && g < n && b < n) {
+    if (alpha < n) return {r, g, b, alpha};
+    return {r, g, b};
+  }
+  const size_t grey = find("Y") < n ? find("Y") : (alpha == 0 && n > 1 ? 1u : 0u);
+  if (alpha < n && alpha != grey) return {grey, grey, grey, alpha};
+  return {grey};
+}
+
+// The transfer function from stored to linear values; identity is empty.
+std::vector<float> decodingTable(int bits, float gamma) {
+  std::vector<float> table(size_t{1} << bits);
+  const auto last = static_cast<double>(table.size() - 1);
+  for (size_t i = 0; i < table.size(); ++i) {
+    const double v = static_cast<double>(i) / last;
+    const double srgb = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    table[i] = static_cast<float>(gamma > 0 ? std::pow(v, static_cast<double>(gamma)) : srgb);
+  }
+  return table;
+}
+
+void decode(Image& image, int integerBits, const ImageOptions& options) {
+  if (options.raw) return;
+  const auto channels = static_cast<size_t>(image.channels);
+  const auto decodeAll = [&](const auto& f) {
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+      if (i % channels != 3) image.pixels[i] = f(image.pixels[i]);
+  };
+  if (integerBits == 8 || integerBits == 16) {
+    const std::vector<float> table = decodingTable(integerBits, options.gamma);
+    const auto last = static_cast<float>(table.size() - 1);
+    decodeAll([&](float v) {
+      return table[static_cast<size_t>(std::lround(std::clamp(v, 0.f, 1.f) * last))];
+    });
+  } else if (options.gamma > 0) {
+    decodeAll([&](float v) { return std::copysign(std::pow(std::abs(v), options.gamma), v); });
+  }
+}
+
+}  // namespace
+
+Image readImage(const std::string& file, const ImageOptions& options, const Location& from) {
+  const std::vector<StoredImage> images = readStoredImages(file, false, from);
+  const StoredImage& stored = images.front();
+  const std::vector<size_t> select = selectChannels(stored);
+  requireFinite(stored, file);
+  Image image;
+  image.name = file;
+  image.width = stored.width, image.height = stored.height;
+  image.channels = static_cast<int>(select.size());
+  const size_t pixelCount = static_cast<size_t>(stored.width) * static_cast<size_t>(stored.height);
+  image.pixels.reserve(pixelCount * select.size());
+  for (size_t p = 0; p < pixelCount; ++p)
+    for (const size_t c : select)
+      image.pixels.push_back(stored.pixels[p * stored.channels.size() + c]);
+  decode(image, stored.integerBits, options);
+  return image;
+}
+
+}  // namespace lobelia::io
