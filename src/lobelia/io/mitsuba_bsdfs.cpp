@@ -111,7 +111,7 @@ Material Reader::simpleMaterial(Object& object) {
     specular(0.2f);
   } else if (type == "difftrans") {
     m.type = MaterialType::diffuseTransmitter;
-    m.diffuse = m.transmittance = color(object, "transmittance", Rgb(0.5f));
+    m.transmittance = color(object, "transmittance", Rgb(0.5f));
   } else if (type == "principled" || type == "principledthin") {
     m = principled(object);
   } else if (type == "null") {

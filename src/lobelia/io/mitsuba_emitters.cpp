@@ -1,6 +1,5 @@
 // Emitters of Mitsuba scenes: area, point, spot, directional, constant, envmap, projector.
 
-#include "lobelia/io/image_io.h"
 #include "lobelia/io/mitsuba_reader.h"
 
 namespace lobelia::io::mitsuba {
@@ -163,22 +162,6 @@ Emitter Reader::projector(Object& object) {
   }
   e.fov = fieldOfView(object, aspect);
   return e;
-}
-
-// Handles of the other emitters stay valid: an emitter there is replaced in its place.
-void Reader::setEnvironment(const std::string& file) {
-  Emitter e;
-  e.type = EmitterType::environment;
-  e.name = "environment";
-  scene_.images.push_back(readImage(file, {}, {}));
-  e.image = {static_cast<uint32_t>(scene_.images.size() - 1)};
-  for (Emitter& other : scene_.emitters) {
-    if (isSurrounding(other)) {
-      other = std::move(e);
-      return;
-    }
-  }
-  add(std::move(e));
 }
 
 }  // namespace lobelia::io::mitsuba

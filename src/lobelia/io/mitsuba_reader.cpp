@@ -61,7 +61,7 @@ Scene readMitsuba(const std::string& file, const ReadSettings& settings, Context
   const mitsuba::Document document = mitsuba::loadDocument(file, settings.definitions, findings);
   mitsuba::Reader reader(document, scene, findings, context);
   reader.read();
-  if (!settings.environment.empty()) reader.setEnvironment(settings.environment);
+  applyEnvironment(scene, settings);
   scene.findings = std::move(found);
   return scene;
 }

@@ -23,8 +23,6 @@ class Reader {
       : document_(document), scene_(scene), findings_(findings), context_(context) {}
 
   void read();
-  // Takes the place of any environment or constant emitter.
-  void setEnvironment(const std::string& file);
 
  private:
   Object open(const Element& element) const { return {element, document_, findings_}; }

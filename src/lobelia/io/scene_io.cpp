@@ -1,10 +1,12 @@
-// Which reader reads a scene file: decided by its extension.
+// Which reader reads a scene file (decided by its extension), and what applies to all of them.
 
 #include "lobelia/io/scene_io.h"
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+
+#include "lobelia/io/image_io.h"
 
 namespace lobelia::io {
 
@@ -15,6 +17,23 @@ Scene readScene(const std::string& file, const ReadSettings& settings, Context& 
   if (extension == ".xml") return readMitsuba(file, settings, context);
   throw InputError({file, 0, 0}, "no reader knows the extension '" + extension +
                                      "'; scenes that can be read: .xml (Mitsuba 0.5 to 3)");
+}
+
+// Handles of the other emitters stay valid: an environment there is replaced in its place.
+void applyEnvironment(Scene& scene, const ReadSettings& settings) {
+  if (settings.environment.empty()) return;
+  Emitter emitter;
+  emitter.type = EmitterType::environment;
+  emitter.name = "environment";
+  scene.images.push_back(readImage(settings.environment, {}));
+  emitter.image = {static_cast<uint32_t>(scene.images.size() - 1)};
+  for (Emitter& other : scene.emitters) {
+    if (other.type == EmitterType::constant || other.type == EmitterType::environment) {
+      other = emitter;
+      return;
+    }
+  }
+  scene.emitters.push_back(emitter);
 }
 
 }  // namespace lobelia::io
