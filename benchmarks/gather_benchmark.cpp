@@ -88,7 +88,7 @@ enum class Lights { diffuse, glossy };
 // lobes 1: Lambert; 2: Lambert and a GGX conductor.
 void gatherRoom(benchmark::State& state, Lights kind, int lobes) {
   static const Room room(100000);
-  const Receivers receivers = room.receivers(128, lobes);
+  const Receivers receivers = room.receivers(60, lobes);
   VirtualLights lights = room.lights(1000);
   (kind == Lights::diffuse ? lights.glossy.clear() : lights.diffuse.clear());
   BareResult bare;

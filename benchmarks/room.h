@@ -64,19 +64,20 @@ class Room {
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
 
-  // What a camera near a corner sees: size x size pixels in tiles of 16 x 16, each tile in Z order.
-  Receivers receivers(int size, int lobes) const {
+  // What a camera near a corner sees in `tiles` tiles of 16 x 16 pixels, spread over a picture of
+  // 1024 x 1024; each tile in Z order.
+  Receivers receivers(int tiles, int lobes) const {
+    constexpr int kTile = 16, kSize = 1024, kAcross = kSize / kTile;
     Receivers receivers;
-    for (int ty = 0; ty < size; ty += 16) {
-      for (int tx = 0; tx < size; tx += 16) {
-        for (int i = 0; i < 256; ++i) {
-          int x = 0, y = 0;
-          for (int bit = 0; bit < 4; ++bit)
-            x |= (i >> (2 * bit) & 1) << bit, y |= (i >> (2 * bit + 1) & 1) << bit;
-          addReceiver(static_cast<float>(tx + x) / static_cast<float>(size) - 0.5f,
-                      static_cast<float>(ty + y) / static_cast<float>(size) - 0.5f, lobes,
-                      &receivers);
-        }
+    for (int t = 0; t < tiles; ++t) {
+      const int place = static_cast<int>((t + 0.5) * kAcross * kAcross / tiles);
+      const int tx = place % kAcross * kTile, ty = place / kAcross * kTile;
+      for (int i = 0; i < kTile * kTile; ++i) {
+        int x = 0, y = 0;
+        for (int bit = 0; bit < 4; ++bit)
+          x |= (i >> (2 * bit) & 1) << bit, y |= (i >> (2 * bit + 1) & 1) << bit;
+        addReceiver(static_cast<float>(tx + x) / kSize - 0.5f,
+                    static_cast<float>(ty + y) / kSize - 0.5f, lobes, &receivers);
       }
     }
     return receivers;

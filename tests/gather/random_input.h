@@ -62,6 +62,7 @@ inline Lobe randomLobe(LobeType type, Rng* rng) {
       break;
     }
     case LobeType::principledDiffuse:
+      lobe.k = randomColor(rng);
       lobe.parameters = randomColor(rng);
       lobe.tint = randomColor(rng);
       break;
