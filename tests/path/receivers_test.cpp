@@ -115,7 +115,7 @@ TEST(Receivers, ADiffuseRoomHasOnePerSample) {
 }
 
 TEST(Receivers, NeighboursInTheArrayAreNearOnTheScreen) {
-  EyePass pass(boxScene());
+  EyePass pass(boxScene(false));
   Film film = filmOf(pass.scene.cameras[0]);
   const Receivers receivers = pass.run(film, {});
   const auto tileOf = [&](uint32_t pixel) {
@@ -140,7 +140,8 @@ TEST(Receivers, MirrorsLeadToTheSurfacesSeenInThem) {
   const Receivers receivers = pass.run(film, {});
   size_t reflected = 0;
   for (const ReceiverPoint& r : receivers.points) {
-    EXPECT_LT(r.p.z, 0.999f) << "the mirror itself is no receiver";
+    const bool onSideWall = std::abs(r.p.x) > 0.99f || std::abs(r.p.y) > 0.97f;
+    EXPECT_TRUE(onSideWall || r.p.z < 0.999f) << "the mirror itself is no receiver";
     if (r.depth != 2) continue;
     ++reflected;
     EXPECT_TRUE(r.primary);
@@ -235,8 +236,8 @@ TEST(Receivers, TheNumberOfThreadsChangesNothing) {
 TEST(Receivers, DirectLightIsThePathTracers) {
   for (const Scene& scene : {boxScene(), mirrorScene(), coatedScene(0.05f), coatedScene(0.3f)}) {
     EyePass pass(scene);
-    const Film film = pass.average({}, 64);
-    expectNear(meanOf(film, "direct"), pass.oracle(-1, 400).direct, 0.02f);
+    const Film film = pass.average({}, 256);
+    expectNear(meanOf(film, "direct"), pass.oracle(-1, 1200).direct, 0.02f);
   }
 }
 

@@ -55,7 +55,7 @@ inline Scene boxScene(bool withLamp = true) {
             addMaterial(scene, diffuseMaterial(Rgb(0.f))), {0});
   }
   Camera camera;
-  camera.toWorld = Transform(*lookAt({0, 0, -0.95}, {0, -0.1, 1}, {0, 1, 0}));
+  camera.toWorld = Transform(*lookAt({0, 0, -0.95}, {0, 0.3, 1}, {0, 1, 0}));
   camera.fovX = 1.4f;
   camera.width = 20;
   camera.height = 16;

@@ -19,6 +19,9 @@ struct SplitOracle {
   const EmitterSampler& emitters;
   float specularLimit = 0.08f;
   int maxDepth = -1;
+  // Paths whose first edge between two rough lobes is shorter are left out: sums over virtual
+  // lights have no finite variance because of these, so that tests leave them out on both sides.
+  float minDistance = 0;
 
   // Mean over all pixels of the camera.
   SplitMeans mean(const Camera& camera, int spp, uint64_t seed) const {
@@ -43,7 +46,8 @@ struct SplitOracle {
  private:
   void follow(Ray ray, Rng& random, SplitMeans* sum) const {
     Rgb throughput(1.f);
-    int sinceRough = -1;  // edges since the first rough lobe; -1: none yet
+    int sinceRough = -1;                         // edges since the first rough lobe; -1: none yet
+    bool roughBefore = false, gathered = false;  // gathered: an edge between rough lobes was passed
     for (int edges = 1; maxDepth < 0 || edges <= maxDepth; ++edges) {
       const auto hit = tracer.intersect(ray);
       if (sinceRough >= 0) ++sinceRough;
@@ -65,6 +69,11 @@ struct SplitOracle {
           sample(bsdf, -ray.d, uLobe, random.next2D(), byRough ? LobeSet::rough : LobeSet::sharp);
       if (!s) return;
       if (byRough && sinceRough < 0) sinceRough = 0;
+      if (roughBefore && byRough && !gathered) {
+        if (hit->t < minDistance) return;
+        gathered = true;
+      }
+      roughBefore = byRough;
       throughput *= s->weight;
       if (edges > 3) {
         const float survival = std::min(0.95f, maxComponent(throughput));
