@@ -32,7 +32,7 @@ EnvironmentSampler::EnvironmentSampler(const Scene& scene, const Emitter& emitte
   inverseDeterminant_ = static_cast<float>(std::abs(emitter.toWorld.from.determinant3()));
 
   const int width = image_->width, height = image_->height;
-  const int rows = std::max(height - 1, 1);
+  const int rows = height > 1 ? height - 1 : 8;  // a single row of texels is repeated
   rowSine_.resize(static_cast<size_t>(rows) + 1);
   for (int y = 0; y <= rows; ++y) {
     // The poles' rows count a little: their texels reach into the cells beside them, where the
