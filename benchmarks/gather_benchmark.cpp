@@ -8,14 +8,14 @@
 #include <algorithm>
 #include <span>
 
+#include "lit_room.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/gather/gather.h"
-#include "room.h"
 
 namespace lobelia {
 namespace {
 
-using bench::Room;
+using benchmark_support::Room;
 
 struct PointNormal {
   Vec3f p, n;
@@ -87,7 +87,7 @@ enum class Lights { diffuse, glossy };
 
 // lobes 1: Lambert; 2: Lambert and a GGX conductor.
 void gatherRoom(benchmark::State& state, Lights kind, int lobes) {
-  static const Room room(100000);
+  static const Room room;
   const Receivers receivers = room.receivers(60, lobes);
   VirtualLights lights = room.lights(1000);
   (kind == Lights::diffuse ? lights.glossy.clear() : lights.diffuse.clear());

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gather/oracle.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/gather/gather.h"
@@ -185,6 +187,67 @@ TEST_F(GatherAll, SameBitsForAnyNumberOfThreads) {
   EXPECT_GT(maxComponent(results[0][0] + results[0][1] + results[0][2]), 0.f);
   EXPECT_EQ(results[0], results[1]);
   EXPECT_EQ(results[0], results[2]);
+}
+
+TEST_F(GatherAll, SumsDoNotDependOnTheCompanyInATile) {
+  const Receivers receivers =
+      randomReceivers(300, {LobeType::lambert, LobeType::phong, LobeType::ward}, 2, 23);
+  const VirtualLights lights = randomLights(70, 1e3f, 24);
+  GatherSettings settings;
+  settings.direct = true;
+  const std::vector<Rgb> together = gather(receivers, lights, settings);
+  Receivers backwards = receivers;
+  std::reverse(backwards.points.begin(), backwards.points.end());
+  const std::vector<Rgb> reversed = gather(backwards, lights, settings);
+  for (size_t i = 0; i < together.size(); ++i)
+    EXPECT_EQ(together[i], reversed[together.size() - 1 - i]) << "point " << i;
+}
+
+// A sheet of the given opacity between a light and many receivers: the share of them that is lit.
+float litShareBehindMask(float opacity) {
+  Scene scene;
+  Mesh mesh;
+  mesh.positions = {{-9, -9, 1}, {9, -9, 1}, {9, 9, 1}, {-9, 9, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene.meshes.push_back(mesh);
+  Material mask;
+  mask.type = MaterialType::mask;
+  mask.a.index = 1;
+  mask.opacity = opacity;
+  scene.materials = {mask, Material()};
+  Instance instance;
+  instance.mesh.index = 0;
+  instance.material.index = 0;
+  scene.instances.push_back(instance);
+  Context context;
+  const Tracer tracer(scene, context);
+  Receivers receivers;
+  Rng rng(25);
+  for (int i = 0; i < 4000; ++i) {
+    ReceiverPoint point;
+    const Vec2f at = rng.next2D();
+    point.p = {at.x, at.y, 0};
+    point.ng = point.wo = {0, 0, 1};
+    point.weight = Rgb(1.f);
+    point.lobeCount = 1;
+    receivers.points.push_back(point);
+  }
+  receivers.lobes.emplace_back();
+  VirtualLights lights;
+  lights.omni.push_back({{0, 0, 3}, Rgb(1.f), 0xffffffffu});
+  GatherSettings settings;
+  settings.direct = true;
+  std::vector<Rgb> radiance(receivers.points.size());
+  gatherAll(tracer, receivers, lights, settings, radiance, context);
+  const auto lit = std::count_if(radiance.begin(), radiance.end(), [](Rgb v) { return v.x > 0; });
+  return static_cast<float>(lit) / static_cast<float>(radiance.size());
+}
+
+TEST(GatherMasks, LetLightThroughByTheirOpacity) {
+  EXPECT_EQ(litShareBehindMask(1.f), 0.f);
+  EXPECT_EQ(litShareBehindMask(0.f), 1.f);
+  // Five standard deviations of 4000 coins.
+  EXPECT_NEAR(litShareBehindMask(0.3f), 0.7f, 0.037f);
 }
 
 TEST_F(GatherAll, AddsToRadianceAndCounts) {

@@ -9,14 +9,19 @@
 namespace lobelia {
 
 struct GatherSettings {
-  float clamp = 0;  // upper limit of geometry term x light lobe x receiver lobe; 0: off
-  int maxDepth = -1;
-  bool direct = false;  // lights of depth 0 (--direct lights) are part of the lights
+  // Upper limit of (light lobe / d^2) x receiver lobes with their cosine, by the largest channel of
+  // the product; one factor for all channels. 0: off. Directional lights are not clamped.
+  float clamp = 0;
+  int maxDepth = -1;  // of whole paths: receiver's depth + 1 + light's depth; -1: no limit
+  // Do lights on emitters themselves (depth 0; omni and directional lights are) count? false where
+  // the eye pass has added direct light (--direct nee): such lights are left out.
+  bool direct = false;
 };
 
 // Adds to radiance[i] the light that receiver point i sends to its pixel (weight included) from all
-// lights. Counts "shadow_rays", "node_pairs_shaded" and "nonfinite"; books seconds to "visibility"
-// and "shade".
+// lights. Counts "shadow_rays", "node_pairs_shaded" (pairs found visible) and "nonfinite" (pairs
+// left out because their value was not finite); books seconds to "visibility" and "shade". When
+// cancelled, a point has its whole sum or nothing added.
 void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,
                const GatherSettings& settings, std::span<Rgb> radiance, Context& context);
 

@@ -1,66 +1,20 @@
-// A closed room full of spheres: the scene of the speed measurements, procedural and of any size.
+// Receivers and virtual lights in the closed room, for benchmarks of gather strategies.
 #pragma once
 
-#include <cmath>
 #include <vector>
 
+#include "closed_room.h"
 #include "lobelia/base/random.h"
 #include "lobelia/base/sampling.h"
 #include "lobelia/lights/virtual_lights.h"
 #include "lobelia/path/receivers.h"
 #include "lobelia/trace/tracer.h"
 
-namespace lobelia::bench {
-
-// [-1, 1]^3 with 60 spheres, together about `triangles` triangles in one mesh.
-inline Scene roomScene(int triangles) {
-  constexpr int kSpheres = 60;
-  Mesh mesh;
-  const auto addQuad = [&](Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
-    const auto first = static_cast<uint32_t>(mesh.positions.size());
-    for (const Vec3f& p : {a, b, c, d}) mesh.positions.push_back(p);
-    mesh.triangles.push_back({first, first + 1, first + 2});
-    mesh.triangles.push_back({first, first + 2, first + 3});
-  };
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const float side : {-1.f, 1.f}) {
-      Vec3f n{}, u{}, v{};
-      n[axis] = side, u[(axis + 1) % 3] = side, v[(axis + 2) % 3] = 1;
-      addQuad(n + u + v, n + u - v, n - u - v, n - u + v);  // normals into the room
-    }
-  }
-  Rng rng(1);
-  // 2 triangles for each of rings x 2 rings quads.
-  const int rings = std::max(4, static_cast<int>(std::sqrt(triangles / kSpheres / 4.0)));
-  for (int s = 0; s < kSpheres; ++s) {
-    const float radius = 0.06f + 0.12f * rng.next1D();
-    const Vec2f xy = rng.next2D();
-    const Vec3f centre = (Vec3f(xy.x, xy.y, rng.next1D()) - Vec3f(0.5f)) * (2 * (0.98f - radius));
-    const auto at = [&](int ring, int step) {
-      const float theta = kPi * static_cast<float>(ring) / static_cast<float>(rings);
-      const float phi = kPi * static_cast<float>(step) / static_cast<float>(rings);
-      return centre + Vec3f(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                            std::cos(theta)) *
-                          radius;
-    };
-    for (int ring = 0; ring < rings; ++ring) {
-      for (int step = 0; step < 2 * rings; ++step)
-        addQuad(at(ring, step), at(ring + 1, step), at(ring + 1, step + 1), at(ring, step + 1));
-    }
-  }
-  Scene scene;
-  scene.meshes.push_back(std::move(mesh));
-  scene.materials.emplace_back();
-  Instance instance;
-  instance.mesh.index = 0;
-  instance.material.index = 0;
-  scene.instances.push_back(instance);
-  return scene;
-}
+namespace lobelia::benchmark_support {
 
 class Room {
  public:
-  explicit Room(int triangles) : scene_(roomScene(triangles)), tracer_(scene_, context_) {}
+  Room() : scene_(benchmark_support::closedRoom()), tracer_(scene_, context_) {}
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
 
@@ -83,18 +37,18 @@ class Room {
     return receivers;
   }
 
-  // `count` lights of each kind on the surfaces, found by rays from the middle of the room.
+  // `count` lights of each kind on the surfaces, found by rays from anywhere in the room.
   VirtualLights lights(size_t count) const {
     VirtualLights lights;
     Rng rng(2);
     while (lights.diffuse.size() < count) {
       const Vec2f xy = rng.next2D();
-      const Vec3f origin = (Vec3f(xy.x, xy.y, rng.next1D()) - Vec3f(0.5f)) * 1.9f;
+      const Vec3f origin = Vec3f(xy.x, xy.y, rng.next1D()) * Vec3f(6, 4, 3);
       const Ray ray{origin, sampleSphereUniform(rng.next2D())};
       const auto hit = tracer_.intersect(ray);
       if (!hit) continue;
       const SurfacePoint at = surfacePoint(scene_, *hit);
-      if (dot(at.ng, ray.d) >= 0) continue;  // from inside a sphere
+      if (dot(at.ng, ray.d) >= 0) continue;  // from inside a sphere or behind a wall
       const Vec3f p = offsetOrigin(at, at.ng);
       lights.diffuse.push_back({p, Rgb(1.f), encodeOctahedral(at.ng), 1});
       const Vec3f mirror = ray.d - at.ng * (2 * dot(at.ng, ray.d));
@@ -107,9 +61,8 @@ class Room {
 
  private:
   void addReceiver(float x, float y, int lobes, Receivers* receivers) const {
-    const Ray ray{
-        {0.95f, 0.93f, 0.9f},
-        normalize(frameFromNormal(normalize(Vec3f(-1, -1, -1))).toWorld({1.2f * x, 1.2f * y, 1}))};
+    const Frame view = frameFromNormal(normalize(Vec3f(2.6f, 1.6f, -0.6f)));
+    const Ray ray{{0.4f, 0.4f, 1.9f}, normalize(view.toWorld({1.2f * x, 1.2f * y, 1}))};
     const auto hit = tracer_.intersect(ray);
     if (!hit) return;
     const SurfacePoint at = surfacePoint(scene_, *hit);
@@ -143,4 +96,4 @@ class Room {
   Tracer tracer_;
 };
 
-}  // namespace lobelia::bench
+}  // namespace lobelia::benchmark_support
