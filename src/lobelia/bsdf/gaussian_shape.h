@@ -32,4 +32,9 @@ ShapeComponents componentsOf(Distribution distribution, float alpha, int limit);
 // at the mirror (or refracted) direction, width by the spherical warp [P000 section 3].
 int shapeOf(const Lobe& lobe, Vec3f wo, bool behind, std::span<ShapePart> parts);
 
+// Energy that the lobe sends out for light arriving from wo (any side): its directional albedo.
+// From tables for isotropic reflection; by a small fixed quadrature, about 0.5 %, where those are
+// only estimates (anisotropic lobes, transmission).
+Rgb glossyEnergy(const Lobe& lobe, Vec3f wo);
+
 }  // namespace lobelia

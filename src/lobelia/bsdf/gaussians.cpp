@@ -22,7 +22,7 @@ bool isGlossy(const Lobe& lobe) {
 }
 
 void addGlossy(const Bsdf& bsdf, const Lobe& lobe, Vec3f wi, int limit, LobeExpansion* out) {
-  const Rgb energy = lobeAlbedo(lobe, wi.z);
+  const Rgb energy = glossyEnergy(lobe, wi);
   if (!(maxComponent(energy) > 0)) return;
   const bool back = wi.z < 0;
   const Vec3f front = back ? flipZ(wi) : wi;
