@@ -1,0 +1,42 @@
+#include "lobelia/io/builtin_scenes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lobelia/io/scene_io.h"
+
+namespace lobelia::io {
+namespace {
+
+struct Builtin {
+  const char* name;
+  Scene (*make)(float detail);
+};
+constexpr Builtin kBuiltins[] = {
+    {"cornell", makeCornell},
+};
+
+}  // namespace
+
+std::vector<std::string> builtinSceneNames() {
+  std::vector<std::string> names;
+  for (const Builtin& builtin : kBuiltins) names.emplace_back(builtin.name);
+  return names;
+}
+
+Scene builtinScene(const std::string& name, float detail) {
+  if (!std::isfinite(detail) || detail < 0.05f || detail > 20)
+    throw UsageError(fmt::format("detail {}: must be a number from 0.05 to 20", detail));
+  for (const Builtin& builtin : kBuiltins)
+    if (name == builtin.name) {
+      Scene scene = builtin.make(detail);
+      scene.name = name;
+      return scene;
+    }
+  const std::vector<std::string> names = builtinSceneNames();
+  throw UsageError(fmt::format("no built-in scene '{}'{}; there are: {}", name,
+                               suggestion(name, names), fmt::join(names, ", ")));
+}
+
+}  // namespace lobelia::io
