@@ -90,7 +90,7 @@ class Split {
  private:
   // Some lights for each receiver, drawn evenly: an unbiased sum over all.
   Rgb gather(const VirtualLights& lights, const Receivers& receivers, int maxDepth) {
-    constexpr int kPerReceiver = 64;
+    constexpr int kPerReceiver = 16;
     std::vector<Rgb> values(receivers.points.size());
     const uint64_t salt = runs_++;
     parallelFor(values.size(), 64, [&](size_t i) {
@@ -146,7 +146,7 @@ class Split {
 void expectEqualLight(Scene scene, int maxDepth, float tolerance, const char* name) {
   SCOPED_TRACE(name);
   Split split(std::move(scene));
-  const test::SplitMeans ours = split.virtualLights(maxDepth, 24),
+  const test::SplitMeans ours = split.virtualLights(maxDepth, 128),
                          truth = split.oracle(maxDepth, 1500);
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(ours.direct[c] / truth.direct[c], 1, 0.025) << "direct, channel " << c;
@@ -237,7 +237,7 @@ TEST(LightSplit, ThePathTracerSplitsAlike) {
 // Emitters as lights: direct and indirect light are gathered together.
 TEST(LightSplit, EmittersAsLights) {
   Split split(with(boxScene(), test::backWall, mirror()));
-  const test::SplitMeans ours = split.virtualLights(5, 24, true), truth = split.oracle(5, 1500);
+  const test::SplitMeans ours = split.virtualLights(5, 128, true), truth = split.oracle(5, 1500);
   for (int c = 0; c < 3; ++c) {
     const float expected = truth.direct[c] + truth.indirect[c];
     EXPECT_NEAR((ours.direct[c] + ours.indirect[c]) / expected, 1, 0.025);
