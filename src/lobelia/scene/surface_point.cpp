@@ -54,7 +54,7 @@ Vec3f instanceRounding(const Transform& transform, Vec3f p) {
 //  - plane: rounding of N, times the extent of the triangle. Both vanish for planes along an axis.
 // The factors are about twice the worst that the tests in tests/trace/offset_test.cpp have seen.
 float positionError(const Triangle& tri, Vec3f ng, Vec3f p, const Transform* transform) {
-  constexpr float kPosition = 4, kPlane = 4, kInstance = 3, kSize = 1, kLargest = 1e-3f;
+  constexpr float kPosition = 4, kPlane = 4, kInstance = 1, kSize = 1, kLargest = 1e-3f;
   const Vec3f n = abs(ng);
   const Vec3f reach = max(abs(tri.p[0]), max(abs(tri.p[1]), abs(tri.p[2])));
   const Vec3f a = abs(tri.e1), b = abs(tri.e2);

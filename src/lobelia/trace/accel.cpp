@@ -116,7 +116,7 @@ void Accel::release() {
 RTCScene Accel::newScene() {
   const RTCScene scene = rtcNewScene(device_);
   device_.check();
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_NONE);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
   device_.watchBuild(scene);
   return scene;
