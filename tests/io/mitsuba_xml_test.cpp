@@ -118,13 +118,15 @@ TEST(MitsubaXml, TheSameFileMayBeIncludedTwice) {
 
 TEST(MitsubaXml, DeepIncludesAreRefused) {
   const TemporaryFolder folder;
+  const auto name = [](int i) { return std::to_string(i) + ".xml"; };
   for (int i = 0; i < 40; ++i) {
-    folder.write("f" + std::to_string(i) + ".xml",
-                 "<scene version=\"3.0.0\"><include filename=\"f" + std::to_string(i + 1) +
-                     ".xml\"/></scene>");
+    std::string text = "<scene version=\"3.0.0\"><include filename=\"";
+    text += name(i + 1);
+    text += "\"/></scene>";
+    folder.write(name(i), text);
   }
   EXPECT_TRUE(contains(
-      messageOf<InputError>([&] { readText(folder, modern("<include filename=\"f0.xml\"/>")); }),
+      messageOf<InputError>([&] { readText(folder, modern("<include filename=\"0.xml\"/>")); }),
       "levels deep"));
 }
 

@@ -45,6 +45,7 @@ class Reader {
   Rgb spectrumPlugin(const Element& element, SpectrumUse use);
   Rgb sampledSpectrum(const Spectrum& spectrum, SpectrumUse use, const Location& where);
   FloatParam scalar(Object& object, const std::string& name, float otherwise);
+  TextureHandle scalarTexture(TextureHandle handle);
 
   // mitsuba_bsdfs.cpp
   MaterialHandle material(const Element& element);
@@ -90,6 +91,7 @@ class Reader {
   Findings& findings_;
   Context& context_;
   std::map<const Element*, TextureHandle> textures_;
+  std::map<uint32_t, TextureHandle> exchanged_;  // checkerboards for numbers, by the original
   std::map<const Element*, MaterialHandle> materials_;
   std::map<const Element*, EmitterHandle> areaEmitters_;
   std::map<const Element*, std::vector<Instance>> groups_;

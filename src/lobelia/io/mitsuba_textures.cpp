@@ -350,6 +350,20 @@ Rgb Reader::constantColor(Object& object, const std::string& name, Rgb otherwise
   return param.value;
 }
 
+// Mitsuba 2 and 3 (Checkerboard::eval_1) exchange the two colours of a checkerboard that is asked
+// for a number; reference images depend on it.
+TextureHandle Reader::scalarTexture(TextureHandle handle) {
+  if (scene_[handle].type != TextureType::checkerboard) return handle;
+  if (const auto known = exchanged_.find(handle.index); known != exchanged_.end()) {
+    return known->second;
+  }
+  Texture exchanged = scene_[handle];
+  std::swap(exchanged.a, exchanged.b);
+  const TextureHandle result = add(std::move(exchanged));
+  exchanged_.emplace(handle.index, result);
+  return result;
+}
+
 FloatParam Reader::scalar(Object& object, const std::string& name, float otherwise) {
   const Element* e = object.property(name);
   if (!e) return otherwise;
@@ -357,7 +371,7 @@ FloatParam Reader::scalar(Object& object, const std::string& name, float otherwi
     return static_cast<float>(parseNumber(e->value("value"), *e));
   }
   const ColorParam param = color(*e, SpectrumUse::unbounded);
-  if (param.texture.valid()) return param.texture;
+  if (param.texture.valid()) return e->legacy ? param.texture : scalarTexture(param.texture);
   const Rgb v = param.value;
   return v.x == v.y && v.y == v.z ? v.x : luminance(v);
 }
