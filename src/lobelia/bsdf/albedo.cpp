@@ -18,7 +18,7 @@ using Grid = AlbedoGrid<1>;
 // Mean of f(u, phi) over u in (0,1), phi in (0, pi).
 template <class F>
 Grid::Entry meanOverNormals(const F& f) {
-  static const GaussRule rule = gaussLegendre(32);
+  static const GaussRule rule = gaussLegendre(40);
   double sum = 0;
   for (size_t a = 0; a < rule.nodes.size(); ++a)
     for (size_t b = 0; b < rule.nodes.size(); ++b)
@@ -110,12 +110,9 @@ Rgb lobeAlbedo(const Lobe& lobe, float cosThetaO) {
     case LobeType::principledDiffuse:
       return principledDiffuseAlbedo(lobe, cosine);
     case LobeType::microfacetReflection:
-      return lobe.weight * microfacetAlbedo(lobe, cosine, behind, false);
-    case LobeType::microfacetTransmission: {
-      Lobe dielectric = lobe;
-      dielectric.fresnel = Fresnel::dielectric;
-      return lobe.weight * microfacetAlbedo(dielectric, cosine, behind, true);
-    }
+      return lobe.weight * microfacetReflectance(lobe, cosine, behind);
+    case LobeType::microfacetTransmission:
+      return lobe.weight * microfacetTransmittance(lobe, cosine, behind);
     case LobeType::phong:
       return lobe.weight * phongAlbedo(lobe.alphaX, cosine);
     case LobeType::ward:

@@ -52,14 +52,23 @@ class AlbedoGrid {
     int index[4];
     float weights[4];
   };
-  // Catmull-Rom; clamped to the ends, where the outer node repeats.
+  // Catmull-Rom; beyond the ends the table goes on straight.
   static Stencil stencil(float x, int count) {
     x = std::clamp(x, 0.f, static_cast<float>(count - 1));
     const int i = std::min(static_cast<int>(x), count - 2);
     const float t = x - static_cast<float>(i), t2 = t * t, t3 = t2 * t;
-    return {{std::max(i - 1, 0), i, i + 1, std::min(i + 2, count - 1)},
-            {0.5f * (-t3 + 2 * t2 - t), 0.5f * (3 * t3 - 5 * t2 + 2), 0.5f * (-3 * t3 + 4 * t2 + t),
-             0.5f * (t3 - t2)}};
+    Stencil s{{i - 1, i, i + 1, i + 2},
+              {0.5f * (-t3 + 2 * t2 - t), 0.5f * (3 * t3 - 5 * t2 + 2),
+               0.5f * (-3 * t3 + 4 * t2 + t), 0.5f * (t3 - t2)}};
+    if (i == 0) {
+      s.weights[1] += 2 * s.weights[0], s.weights[2] -= s.weights[0];
+      s.index[0] = 0, s.weights[0] = 0;
+    }
+    if (i + 2 == count) {
+      s.weights[2] += 2 * s.weights[3], s.weights[1] -= s.weights[3];
+      s.index[3] = i, s.weights[3] = 0;
+    }
+    return s;
   }
 
   int cosines_, alphas_;
