@@ -236,12 +236,12 @@ TEST(EmitterSampler, KeepsHalfOfUniformSelection) {
   EXPECT_GT(count, kSamples / (2 * kEmitters) * 0.93);
 }
 
-TEST(EmitterSampler, AMillionTrianglesAreSampledEvenly) {
+TEST(EmitterSampler, ManyTrianglesAreSampledEvenly) {
   Scene scene;
   const EmitterHandle light = test::addAreaEmitter(scene, Rgb(1));
   const MaterialHandle black = test::addMaterial(scene, test::diffuseMaterial(Rgb(0.f)));
   Mesh mesh;
-  constexpr uint32_t kSide = 708;  // 2 * 708^2 triangles
+  constexpr uint32_t kSide = 300;
   for (uint32_t y = 0; y <= kSide; ++y) {
     for (uint32_t x = 0; x <= kSide; ++x) {
       mesh.positions.push_back({static_cast<float>(x) / kSide, 0, static_cast<float>(y) / kSide});
