@@ -1,5 +1,5 @@
 // Direct lighting at a surface point: one emitter sample, combined with BSDF samples by the power
-// heuristic (Veach 1997, section 9.2). Shared by the path tracer and the eye pass.
+// heuristic (Veach 1997, section 9.2). `Rays` is Tracer, or what answers the same queries.
 #pragma once
 
 #include "lobelia/bsdf/bsdf.h"
@@ -28,7 +28,8 @@ inline LightQuery lightQuery(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wo)
 }
 
 // Is the emitter sample's way from q free?
-inline bool unoccluded(const Tracer& tracer, const LightQuery& q, const EmitterDirection& light) {
+template <class Rays>
+bool unoccluded(const Rays& tracer, const LightQuery& q, const EmitterDirection& light) {
   const Vec3f origin = offsetOrigin(q.p, q.ng, q.error, light.wi);
   if (light.distance < 1e38f) return tracer.visible(origin, light.target);
   Ray ray;
@@ -40,9 +41,10 @@ inline bool unoccluded(const Tracer& tracer, const LightQuery& q, const EmitterD
 // One sample of the light that an emitter sends to q, times f |cos| of the lobes in `lobes`.
 // `sampled`: the lobes among which the accompanying BSDF samples are drawn (MIS); pass withBsdf =
 // false when no BSDF sample accompanies. u: three uniform numbers. Counts the shadow ray.
-inline Rgb sampleDirectLight(const Tracer& tracer, const EmitterSampler& emitters,
-                             const LightQuery& q, const Bsdf& bsdf, Vec3f wo, LobeSet lobes,
-                             LobeSet sampled, bool withBsdf, Vec3f u, uint64_t* shadowRays) {
+template <class Rays>
+Rgb sampleDirectLight(const Rays& tracer, const EmitterSampler& emitters, const LightQuery& q,
+                      const Bsdf& bsdf, Vec3f wo, LobeSet lobes, LobeSet sampled, bool withBsdf,
+                      Vec3f u, uint64_t* shadowRays) {
   const auto light = emitters.sampleDirection(q.p, q.n, u);
   if (!light) return {};
   Rgb value = evaluate(bsdf, wo, light->wi, lobes) * light->weight;

@@ -171,7 +171,7 @@ class PathPasses {
     writeLayer(name, [&](size_t i, size_t c) { return value(guides_[i], c); });
   }
 
-  const PathWalk walk_;
+  const PathWalk<Tracer> walk_;
   const Camera& camera_;
   const PathSettings& settings_;
   Film& film_;

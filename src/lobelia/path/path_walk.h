@@ -48,14 +48,17 @@ struct PathResult {
   float depth = 0;
 };
 
+// Rays: Tracer, or what answers the same queries (benchmarks record them). trace() is defined in
+// path_walk-inl.h and compiled for Tracer in path_walk.cpp.
+template <class Rays>
 class PathWalk {
  public:
-  PathWalk(const Tracer& tracer, const EmitterSampler& emitters, const PathSettings& settings)
+  PathWalk(const Rays& tracer, const EmitterSampler& emitters, const PathSettings& settings)
       : tracer_(tracer), emitters_(emitters), settings_(settings) {}
   PathResult trace(Ray ray, PathRandom& random, PathCounts& counts) const;
 
  private:
-  const Tracer& tracer_;
+  const Rays& tracer_;
   const EmitterSampler& emitters_;
   const PathSettings& settings_;
 };
