@@ -186,6 +186,7 @@ VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSample
   GatherSettings gather;
   gather.clamp = clampValue(options, tracer.bounds().radius());
   gather.maxDepth = maxDepth;
+  gather.direct = options.direct == "lights";
   VirtualLightReport report;
   report.lights = obtainLights(tracer, emitters, maxDepth, options, context);
   if (!options.saveLights.empty()) saveLights(options.saveLights, report.lights);
