@@ -84,5 +84,28 @@ TEST(Parallel, LoopsNest) {
   EXPECT_EQ(sum.load(), 100);
 }
 
+// A table that is built by a loop on first use, inside a loop: a thread that waits for the inner
+// loop must not start another piece of the outer one, which would wait for the table for ever.
+int tableSum() {
+  static const std::vector<int> table = [] {
+    std::vector<int> values(64);
+    parallelFor(values.size(), 1, [&](size_t i) {
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+      values[i] = static_cast<int>(i);
+    });
+    return values;
+  }();
+  int sum = 0;
+  for (int v : table) sum += v;
+  return sum;
+}
+
+TEST(Parallel, TablesMayBeBuiltInsideLoops) {
+  const ThreadLimit limit(4);
+  std::atomic<int> wrong{0};
+  parallelFor(256, 1, [&](size_t) { wrong += tableSum() != 64 * 63 / 2; });
+  EXPECT_EQ(wrong.load(), 0);
+}
+
 }  // namespace
 }  // namespace lobelia

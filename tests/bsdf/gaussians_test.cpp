@@ -124,25 +124,32 @@ TEST(Expand, PaperFormHasTheErrorsOfTheSphericalWarp) {
          {"phong 50", phongLobe(50), 60, 0, 1, 0.21}});
 }
 
-TEST(Expand, RowsFollowObliqueLobes) {
+TEST(Expand, MixturesFollowObliqueLobes) {
   using enum Distribution;
-  check({{"beckmann .05", microfacet(beckmann, .05f, .05f), 30, 0, 16, 0.01},
-         {"beckmann .05", microfacet(beckmann, .05f, .05f), 60, 0, 16, 0.05},
-         {"beckmann .05", microfacet(beckmann, .05f, .05f), 75, 0, 16, 0.12},
-         {"beckmann .2", microfacet(beckmann, .2f, .2f), 60, 0, 16, 0.17},
-         {"ward .1", ward(.1f, .1f), 45, 0, 16, 0.04},
-         {"ward .1", ward(.1f, .1f), 75, 0, 16, 0.20}});
+  check({{"beckmann .05", microfacet(beckmann, .05f, .05f), 30, 0, 24, 0.02},
+         {"beckmann .05", microfacet(beckmann, .05f, .05f), 60, 0, 24, 0.06},
+         {"beckmann .2", microfacet(beckmann, .2f, .2f), 60, 0, 24, 0.07},
+         {"beckmann .2", microfacet(beckmann, .2f, .2f), 75, 0, 24, 0.14},
+         {"beckmann .4", microfacet(beckmann, .4f, .4f), 60, 0, 24, 0.13},
+         {"ward .1", ward(.1f, .1f), 45, 0, 24, 0.04},
+         {"ward .1", ward(.1f, .1f), 75, 0, 24, 0.22},
+         {"ward .1", ward(.1f, .1f), 45, 0, 9, 0.06}});
 }
 
-TEST(Expand, TwoComponentsFollowTheTailsOfGgx) {
+TEST(Expand, MixturesFollowTheTailsOfGgx) {
   using enum Distribution;
-  check({{"ggx .05", microfacet(ggx, .05f, .05f), 0, 0, 16, 0.12},
-         {"ggx .1", microfacet(ggx, .1f, .1f), 0, 0, 16, 0.10},
-         {"ggx .1", microfacet(ggx, .1f, .1f), 60, 0, 16, 0.18},
-         {"ggx .2", microfacet(ggx, .2f, .2f), 0, 0, 16, 0.05},
-         {"ggx .2", microfacet(ggx, .2f, .2f), 45, 0, 16, 0.14},
-         {"ggx .4", microfacet(ggx, .4f, .4f), 30, 0, 16, 0.15},
-         {"ggx .05", microfacet(ggx, .05f, .05f), 75, 0, 32, 0.21}});
+  check({{"ggx .05", microfacet(ggx, .05f, .05f), 0, 0, 24, 0.09},
+         {"ggx .1", microfacet(ggx, .1f, .1f), 0, 0, 24, 0.06},
+         {"ggx .1", microfacet(ggx, .1f, .1f), 60, 0, 24, 0.14},
+         {"ggx .1", microfacet(ggx, .1f, .1f), 75, 0, 24, 0.30},
+         {"ggx .2", microfacet(ggx, .2f, .2f), 45, 0, 24, 0.06},
+         {"ggx .2", microfacet(ggx, .2f, .2f), 75, 0, 24, 0.19},
+         {"ggx .4", microfacet(ggx, .4f, .4f), 0, 0, 24, 0.04},
+         {"ggx .4", microfacet(ggx, .4f, .4f), 60, 0, 24, 0.08},
+         {"ggx .4", microfacet(ggx, .4f, .4f), 75, 0, 24, 0.12},
+         {"ggx .6", microfacet(ggx, .6f, .6f), 60, 0, 24, 0.12},
+         {"ggx 1", microfacet(ggx, 1, 1), 75, 0, 24, 0.16},
+         {"ggx .4", microfacet(ggx, .4f, .4f), 75, 0, 9, 0.13}});
 }
 
 TEST(Expand, RowsFollowAnisotropy) {
@@ -200,7 +207,7 @@ TEST(Expand, EnergyIsTheAlbedoAtEveryAngle) {
   for (const auto& [name, lobe] : lobes) {
     const Bsdf bsdf = bsdfOf(lobe);
     for (float degrees : {1.f, 40.f, 70.f, 80.f}) {
-      for (int gaussians : {1, 9, 32}) {
+      for (int gaussians : {1, 24}) {
         const Fit fit = fitOf(bsdf, direction(bsdf, degrees, 0.7f), gaussians);
         EXPECT_NEAR(fit.energy, 1, 0.01) << name << " " << lobe.alphaX << " at " << degrees;
       }
@@ -248,7 +255,7 @@ TEST(Expand, LeavesOutSharpLobesAndClosedSides) {
 // Nothing that a scene may hold makes a light that is not a number or does not fit the record.
 TEST(Expand, IsFiniteForEveryLobeAndAngle) {
   Rng rng(3);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 6000; ++i) {
     Bsdf bsdf;
     bsdf.frame = frameFromNormal(sampleSphereUniform(rng.next2D()));
     bsdf.ng = bsdf.frame.n;

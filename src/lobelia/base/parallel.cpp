@@ -14,13 +14,17 @@ void parallelRanges(size_t count, size_t grain, const std::function<void(size_t,
   grain = std::max<size_t>(grain, 1);
   const size_t blocks = count / grain + (count % grain != 0 ? 1 : 0);
   if (blocks == 0) return;
+  // Isolated: a thread that waits for an inner loop takes part in that loop only. Otherwise it
+  // could start another piece of the outer loop while it holds a lock or builds a static table.
   const auto loop = [&] {
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, blocks, 1),
-                      [&](const tbb::blocked_range<size_t>& range) {
-                        for (size_t b = range.begin(); b != range.end(); ++b) {
-                          f(b * grain, std::min(count, (b + 1) * grain));
-                        }
-                      });
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(tbb::blocked_range<size_t>(0, blocks, 1),
+                        [&](const tbb::blocked_range<size_t>& range) {
+                          for (size_t b = range.begin(); b != range.end(); ++b) {
+                            f(b * grain, std::min(count, (b + 1) * grain));
+                          }
+                        });
+    });
   };
   // The default arena has as many slots as the machine has cores; a limit above that (--threads 5
   // on two cores) needs an arena of its own.

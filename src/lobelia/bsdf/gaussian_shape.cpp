@@ -12,6 +12,7 @@
 
 #include <cmath>
 
+#include "lobelia/bsdf/gaussian_mixture.h"
 #include "lobelia/bsdf/scalar_lobe.h"
 #include "lobelia/lobes/spherical_gaussian.h"
 
@@ -183,7 +184,7 @@ ShapePart phongPart(const Lobe& lobe, Vec3f wo) {
 
 }  // namespace
 
-int shapeOf(const Lobe& lobe, Vec3f wo, bool behind, std::span<ShapePart> parts) {
+int rowShape(const Lobe& lobe, Vec3f wo, bool behind, std::span<ShapePart> parts) {
   const int limit = static_cast<int>(parts.size());
   if (lobe.type == LobeType::phong) {
     parts[0] =
@@ -218,6 +219,11 @@ int shapeOf(const Lobe& lobe, Vec3f wo, bool behind, std::span<ShapePart> parts)
     correctShares(lobe, wo, behind, parts.first(static_cast<size_t>(count)));
   }
   return count;
+}
+
+int shapeOf(const Lobe& lobe, Vec3f wo, bool behind, std::span<ShapePart> parts) {
+  const int count = behind ? 0 : tabulatedShape(lobe, wo, parts);
+  return count > 0 ? count : rowShape(lobe, wo, behind, parts);
 }
 
 }  // namespace lobelia

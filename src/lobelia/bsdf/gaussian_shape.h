@@ -9,6 +9,7 @@
 
 namespace lobelia {
 
+inline constexpr size_t kMaxParts = 32;
 struct ShapePart {
   Vec3f axis;
   float sharpness;
@@ -27,10 +28,13 @@ struct ShapeComponents {
 };
 ShapeComponents componentsOf(Distribution distribution, float alpha, int limit);
 
-// Writes at most parts.size() (>= 1) Gaussians and returns their number; 0 when the lobe sends
-// nothing out. `behind`: the interface is seen from inside. One part alone is the paper's form:
-// at the mirror (or refracted) direction, width by the spherical warp [P000 section 3].
+// Writes at most parts.size() (1 to kMaxParts) Gaussians and returns their number; 0 when the lobe
+// sends nothing out. `behind`: the interface is seen from inside. One part alone is the paper's
+// form: at the mirror (or refracted) direction, width by the spherical warp [P000 section 3].
 int shapeOf(const Lobe& lobe, Vec3f wo, bool behind, std::span<ShapePart> parts);
+
+// The same without tables (gaussian_mixture.h), for any lobe: rows of Gaussians in closed form.
+int rowShape(const Lobe& lobe, Vec3f wo, bool behind, std::span<ShapePart> parts);
 
 // Energy that the lobe sends out for light arriving from wo (any side): its directional albedo.
 // From tables for isotropic reflection; by a small fixed quadrature, about 0.5 %, where those are
