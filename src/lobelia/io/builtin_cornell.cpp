@@ -202,6 +202,7 @@ class Box {
     // The open side, at a distance of 3.9, with a margin of 2.5 %.
     camera.fovX = 2 * std::atan(1.025f / 3.9f);
     camera.nearClip = 0.1f, camera.farClip = 100;
+    camera.focusDistance = 4.9f;
     camera.width = camera.height = 640;
     camera.spp = 64;
     scene_.cameras.push_back(camera);

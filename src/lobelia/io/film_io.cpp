@@ -200,14 +200,18 @@ void writeExr(const std::string& file, const Film& film) {
   write(file, "openexr", spec, OIIO::TypeFloat, pixels.data());
 }
 
-void writePng(const std::string& file, const std::vector<uint8_t>& rgb, int width, int height) {
-  require(width > 0 && height > 0 &&
-              rgb.size() == 3 * static_cast<size_t>(width) * static_cast<size_t>(height),
-          file,
-          fmt::format("{} bytes are no RGB image of {} x {} pixels", rgb.size(), width, height));
-  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeUInt8);
+void writePng(const std::string& file, const std::vector<uint8_t>& pixels, int width, int height,
+              int channels) {
+  const bool right = width > 0 && height > 0 && (channels == 1 || channels == 3 || channels == 4) &&
+                     pixels.size() == static_cast<size_t>(channels) * static_cast<size_t>(width) *
+                                          static_cast<size_t>(height);
+  require(right, file,
+          fmt::format("{} bytes are no image of {} x {} pixels with {} channels", pixels.size(),
+                      width, height, channels));
+  OIIO::ImageSpec spec(width, height, channels, OIIO::TypeUInt8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  write(file, "png", spec, OIIO::TypeUInt8, rgb.data());
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  write(file, "png", spec, OIIO::TypeUInt8, pixels.data());
 }
 
 }  // namespace lobelia::io

@@ -22,6 +22,8 @@ Film readFilm(const std::string& file);
 // EXR, 32-bit float, layers named "layer.R"...; to a temporary name, then renamed. Throws
 // RuntimeError, leaving no file.
 void writeExr(const std::string& file, const Film& film);
-void writePng(const std::string& file, const std::vector<uint8_t>& rgb, int width, int height);
+// 8 bits a channel; 1 (grey), 3 (RGB) or 4 (RGBA, colours not multiplied by alpha) channels.
+void writePng(const std::string& file, const std::vector<uint8_t>& pixels, int width, int height,
+              int channels = 3);
 
 }  // namespace lobelia::io

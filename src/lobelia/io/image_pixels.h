@@ -1,6 +1,7 @@
 // Pixels of image files as stored, by OpenImageIO (internal to io).
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,6 +27,10 @@ struct StoredImage {
 // the file: unknown format, damaged, truncated, too large, of a colour model other than grey or
 // RGB.
 std::vector<StoredImage> readStoredImages(const std::string& file, bool all, const Location& from);
+
+// The linear value of each stored integer of 8 or 16 bits: as it is, by a gamma, or from sRGB.
+enum class Transfer : uint8_t { linear, gamma, srgb };
+std::vector<float> decodingTable(int bits, Transfer transfer, float gamma = 1);
 
 // Non-finite values make an image useless as a texture or environment: throws InputError.
 void requireFinite(const StoredImage& image, const std::string& file);

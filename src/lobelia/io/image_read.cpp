@@ -27,37 +27,46 @@ std::vector<size_t> selectChannels(const StoredImage& stored) {
   return {grey};
 }
 
-// The transfer function from stored to linear values; identity is empty.
-std::vector<float> decodingTable(int bits, float gamma) {
+void decode(Image& image, int integerBits, const ImageOptions& options) {
+  const auto channels = static_cast<size_t>(image.channels);
+  const auto decodeAll = [&](const auto& ofColor, const auto& ofAlpha) {
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+      float& v = image.pixels[i];
+      v = i % channels == 3 ? ofAlpha(v) : ofColor(v);
+    }
+  };
+  if (integerBits == 8 || integerBits == 16) {
+    const Transfer transfer = options.raw         ? Transfer::linear
+                              : options.gamma > 0 ? Transfer::gamma
+                                                  : Transfer::srgb;
+    const std::vector<float> color = decodingTable(integerBits, transfer, options.gamma);
+    const std::vector<float> alpha = decodingTable(integerBits, Transfer::linear);
+    const auto last = static_cast<float>(color.size() - 1);
+    const auto index = [&](float v) {
+      return static_cast<size_t>(std::lround(std::clamp(v, 0.f, 1.f) * last));
+    };
+    decodeAll([&](float v) { return color[index(v)]; }, [&](float v) { return alpha[index(v)]; });
+  } else if (!options.raw && options.gamma > 0) {
+    decodeAll([&](float v) { return std::copysign(std::pow(std::abs(v), options.gamma), v); },
+              [](float v) { return v; });
+  }
+}
+
+}  // namespace
+
+std::vector<float> decodingTable(int bits, Transfer transfer, float gamma) {
   std::vector<float> table(size_t{1} << bits);
   const auto last = static_cast<double>(table.size() - 1);
   for (size_t i = 0; i < table.size(); ++i) {
     const double v = static_cast<double>(i) / last;
     const double srgb = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    table[i] = static_cast<float>(gamma > 0 ? std::pow(v, static_cast<double>(gamma)) : srgb);
+    table[i] =
+        static_cast<float>(transfer == Transfer::srgb    ? srgb
+                           : transfer == Transfer::gamma ? std::pow(v, static_cast<double>(gamma))
+                                                         : v);
   }
   return table;
 }
-
-void decode(Image& image, int integerBits, const ImageOptions& options) {
-  if (options.raw) return;
-  const auto channels = static_cast<size_t>(image.channels);
-  const auto decodeAll = [&](const auto& f) {
-    for (size_t i = 0; i < image.pixels.size(); ++i)
-      if (i % channels != 3) image.pixels[i] = f(image.pixels[i]);
-  };
-  if (integerBits == 8 || integerBits == 16) {
-    const std::vector<float> table = decodingTable(integerBits, options.gamma);
-    const auto last = static_cast<float>(table.size() - 1);
-    decodeAll([&](float v) {
-      return table[static_cast<size_t>(std::lround(std::clamp(v, 0.f, 1.f) * last))];
-    });
-  } else if (options.gamma > 0) {
-    decodeAll([&](float v) { return std::copysign(std::pow(std::abs(v), options.gamma), v); });
-  }
-}
-
-}  // namespace
 
 Image readImage(const std::string& file, const ImageOptions& options, const Location& from) {
   const std::vector<StoredImage> images = readStoredImages(file, false, from);

@@ -1,0 +1,80 @@
+// The writer of Mitsuba 3 scenes (internal to io). One class; a file for textures and materials,
+// one for the rest.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <pugixml.hpp>
+#include <set>
+#include <string>
+
+#include "lobelia/scene/scene.h"
+
+namespace lobelia::io::mitsuba {
+
+// Gives each object of a file its own name, of characters that mean nothing to XML readers, shells
+// and file systems.
+class Names {
+ public:
+  // `wanted` made clean (or `otherwise` when nothing is left), with a number when it is taken.
+  std::string make(const std::string& wanted, const std::string& otherwise);
+
+ private:
+  std::set<std::string> taken_;
+};
+
+class Writer {
+ public:
+  Writer(const Scene& scene, std::string folder);
+  // Meshes and images first, scene.xml last. Throws RuntimeError.
+  void write();
+
+ private:
+  using Node = pugi::xml_node;
+
+  // mitsuba_writer_materials.cpp
+  void writeTextures();
+  void writeMaterials();
+  Node textureNode(Node parent, const Texture& texture, const std::string& id);
+  void writeImages();
+  bool isRaw(ImageHandle image) const { return rawImages_.contains(image.index); }
+  // Whether a texture is the same everywhere, and its value.
+  std::optional<Rgb> constantOf(TextureHandle texture) const;
+  // The name of the texture element that readers see as `texture`.
+  std::string textureId(TextureHandle texture, bool asNumber);
+  void reference(Node parent, const std::string& id, const char* name = nullptr);
+  void color(Node parent, const char* name, const ColorParam& param);
+  void scalar(Node parent, const char* name, const FloatParam& param);
+  void roughness(Node node, const Material& material);
+  void materialProperties(Node node, const Material& material);
+  void principled(Node node, const Material& material);
+
+  // mitsuba_writer.cpp
+  void writeIntegrator();
+  void writeCameras();
+  void writeFilm(Node sensor, const Camera& camera);
+  void writeMeshes();
+  void writeInstances();
+  void writeEmitters();
+  void emitterProperties(Node node, const Emitter& emitter);
+
+  const Scene& scene_;
+  std::string folder_;
+  pugi::xml_document document_;
+  Node root_;
+  Names ids_;
+  std::vector<std::string> imageFiles_, meshTypes_, meshFiles_, materialIds_, emitterIds_;
+  std::map<std::pair<uint32_t, bool>, std::string> textureIds_;  // by handle and use as a number
+  std::set<uint32_t> rawImages_;  // PNG images whose numbers are the values
+};
+
+// Shortest text that reads back as the same number.
+std::string text(float value);
+std::string text(double value);
+std::string text(Rgb value);
+pugi::xml_node object(pugi::xml_node parent, const char* tag, const char* type,
+                      const std::string& id = {});
+void property(pugi::xml_node parent, const char* tag, const char* name, const std::string& value);
+void transform(pugi::xml_node parent, const char* name, const Mat4& matrix);
+
+}  // namespace lobelia::io::mitsuba
