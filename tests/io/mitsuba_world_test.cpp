@@ -119,8 +119,12 @@ TEST(MitsubaShape, SurfacesWithoutMaterial) {
   EXPECT_EQ(scene.materials[0].diffuse.value, Rgb(0.5f));
   scene = readModern("<shape type=\"cube\"><emitter type=\"area\"/></shape>");
   EXPECT_EQ(scene.materials[0].diffuse.value, Rgb(0.f));
-  scene =
-      readModern("<shape type=\"cube\"><medium type=\"homogeneous\" name=\"interior\"/></shape>");
+  scene = readModern("<shape type=\"cube\"/><shape type=\"disk\"/>");
+  EXPECT_EQ(scene.materials.size(), 1u);
+  const std::string medium =
+      "<shape type=\"cube\"><medium type=\"homogeneous\" name=\"interior\"/></shape>";
+  EXPECT_EQ(readModern(medium).materials[0].type, MaterialType::diffuse);
+  scene = readLegacy(medium);
   EXPECT_EQ(scene.materials[0].type, MaterialType::null);
   EXPECT_TRUE(contains(onlyFinding(scene), "participating media"));
 }

@@ -2,6 +2,7 @@
 #include "lobelia/io/mitsuba_xml.h"
 
 #include "io/mitsuba_scene.h"
+#include "lobelia/base/random.h"
 
 namespace lobelia {
 namespace {
@@ -182,6 +183,45 @@ TEST(MitsubaXml, EveryTruncationIsRefused) {
   for (size_t n = 0; n < whole.size(); ++n) {
     EXPECT_THROW(readText(folder, whole.substr(0, n)), InputError) << n;
   }
+}
+
+// Damaged files are read or refused; nothing else happens (this runs under sanitizers too).
+TEST(MitsubaXml, DamagedFilesAreReadOrRefused) {
+  const TemporaryFolder folder;
+  const std::string whole = test::legacy(
+      "<default name=\"r\" value=\"2\"/><bsdf type=\"mixturebsdf\" id=\"m\"><string "
+      "name=\"weights\" value=\"0.5, 0.3\"/><bsdf type=\"roughconductor\"/><bsdf "
+      "type=\"principled\"><spectrum name=\"baseColor\" value=\"400:0.2, 700:0.4\"/></bsdf></bsdf>"
+      "<shape type=\"sphere\"><float name=\"radius\" value=\"$r\"/><ref id=\"m\"/><transform "
+      "name=\"toWorld\"><rotate y=\"1\" angle=\"30\"/><matrix value=\"1 0 0 0 1 0 0 0 1\"/>"
+      "</transform></shape>");
+  const std::vector<std::string> values{"-1", "0", "1e38", "nan", "", "99999999999", "1 2 3", "$x"};
+  Rng random(1, 0);
+  const auto below = [&](size_t n) {
+    return std::min(static_cast<size_t>(random.next1D() * static_cast<float>(n)), n - 1);
+  };
+  int read = 0, refused = 0;
+  for (int i = 0; i < 1500; ++i) {
+    std::string text = whole;
+    const size_t at = below(text.size());
+    if (const size_t kind = below(4); kind == 0) {
+      text[at] = static_cast<char>(below(256));
+    } else if (kind == 1) {
+      text.erase(at, 1 + below(12));
+    } else if (kind == 2) {
+      text.insert(at, text.substr(below(text.size()), below(40)));
+    } else if (const size_t value = text.find("value=\"", at); value != text.npos) {
+      text.replace(value + 7, text.find('"', value + 7) - value - 7, values[below(values.size())]);
+    }
+    try {
+      readText(folder, text);
+      ++read;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(read, 100);
+  EXPECT_GT(refused, 100);
 }
 
 TEST(MitsubaXml, MissingFilesAreNamed) {

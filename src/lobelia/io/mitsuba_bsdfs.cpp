@@ -146,7 +146,7 @@ void Reader::conductor(Object& object, Material* out) {
   const std::optional<std::string> given = object.string("material");
   // Mitsuba 3 has no default metal; 0.6 has copper in air.
   const bool own = object.has("eta") || object.has("k");
-  const std::string name = given.value_or(object.legacy() && !own ? "Cu" : "none");
+  const std::string name = given.value_or(object.legacy() ? "Cu" : "none");
   const std::optional<ConductorConstants> constants = namedConductor(name);
   if (!constants) {
     const std::string hint = suggestion(name, namedConductors());

@@ -35,12 +35,11 @@ void refuseBoth(Object& object, const std::string& name) {
 
 }  // namespace
 
-EmitterHandle Reader::add(Emitter emitter) {
+EmitterHandle Reader::add(Emitter emitter, const Location& where) {
   if (isSurrounding(emitter)) {
     for (const Emitter& other : scene_.emitters) {
       if (isSurrounding(other)) {
-        throw InputError({scene_.file, 0, 0},
-                         "there are two environment emitters; a scene can have one");
+        throw InputError(where, "this is a second environment emitter; a scene can have one");
       }
     }
   }
@@ -63,7 +62,7 @@ EmitterHandle Reader::areaEmitter(const Element& element) {
   e.radiance = color(object, "radiance", Rgb(1.f), SpectrumUse::emission);
   ignoreSampling(object);
   object.finish();
-  const EmitterHandle handle = add(std::move(e));
+  const EmitterHandle handle = add(std::move(e), object.where());
   areaEmitters_.emplace(&element, handle);
   return handle;
 }
@@ -129,7 +128,7 @@ void Reader::emitter(const Element& element) {
   e.name = object.id();
   ignoreSampling(object);
   object.finish();
-  add(std::move(e));
+  add(std::move(e), object.where());
 }
 
 Emitter Reader::environment(Object& object) {

@@ -64,7 +64,7 @@ class Reader {
   EmitterHandle areaEmitter(const Element& element);
   Emitter environment(Object& object);
   Emitter projector(Object& object);
-  EmitterHandle add(Emitter emitter);
+  EmitterHandle add(Emitter emitter, const Location& where);
 
   // mitsuba_sensors.cpp
   void sensor(const Element& element);
@@ -85,6 +85,7 @@ class Reader {
   MeshHandle fileMesh(Object& object, const std::string& type);
   MeshHandle unitMesh(const std::string& type);
   void surface(Object& object, Instance* out);
+  MaterialHandle defaultMaterial(const std::string& kind);
 
   const Document& document_;
   Scene& scene_;
@@ -93,6 +94,7 @@ class Reader {
   std::map<const Element*, TextureHandle> textures_;
   std::map<uint32_t, TextureHandle> exchanged_;  // checkerboards for numbers, by the original
   std::map<const Element*, MaterialHandle> materials_;
+  std::map<std::string, MaterialHandle> defaultMaterials_;
   std::map<const Element*, EmitterHandle> areaEmitters_;
   std::map<const Element*, std::vector<Instance>> groups_;
   std::map<std::string, MeshHandle> meshes_;

@@ -193,15 +193,22 @@ void Reader::surface(Object& object, Instance* out) {
     out->material = material(*bsdfs[0]);
     return;
   }
-  // Without a bsdf: a boundary between media is invisible, an emitter black, the rest grey.
-  Material m;
-  m.name = "default";
-  if (!media.empty()) {
-    m.type = MaterialType::null;
-  } else if (out->emitter.valid()) {
-    m.diffuse = Rgb(0.f);
+  // Without a bsdf an emitter is black, in 0.6 a boundary between media invisible, the rest grey.
+  out->material = defaultMaterial(!media.empty() && object.legacy() ? "invisible"
+                                  : out->emitter.valid()            ? "black"
+                                                                    : "grey");
+}
+
+MaterialHandle Reader::defaultMaterial(const std::string& kind) {
+  const auto [at, inserted] = defaultMaterials_.emplace(kind, MaterialHandle{});
+  if (inserted) {
+    Material m;
+    m.name = "default " + kind;
+    if (kind == "invisible") m.type = MaterialType::null;
+    if (kind == "black") m.diffuse = Rgb(0.f);
+    at->second = add(std::move(m));
   }
-  out->material = add(std::move(m));
+  return at->second;
 }
 
 }  // namespace lobelia::io::mitsuba

@@ -9,7 +9,7 @@
 
 #include "lobelia/io/mitsuba_xml.h"
 
-#include <array>
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <filesystem>
@@ -18,6 +18,8 @@
 #include <set>
 #include <sstream>
 
+#include "lobelia/io/mitsuba_tags.h"
+
 namespace lobelia::io::mitsuba {
 namespace {
 
@@ -25,68 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxNesting = 64;
 constexpr int kMaxIncludes = 32;
-
-struct Tag {
-  const char* name;
-  bool object;
-  std::vector<std::string> attributes;
-};
-const std::vector<Tag>& knownTags() {
-  static const std::vector<std::string> object{"type", "id", "name", "version"};
-  static const std::vector<Tag> tags{
-      {"scene", true, {"version", "type", "id", "name"}},
-      {"bsdf", true, object},
-      {"texture", true, object},
-      {"emitter", true, object},
-      {"shape", true, object},
-      {"sensor", true, object},
-      {"film", true, object},
-      {"sampler", true, object},
-      {"integrator", true, object},
-      {"rfilter", true, object},
-      {"medium", true, object},
-      {"phase", true, object},
-      {"volume", true, object},
-      {"subsurface", true, object},
-      {"boolean", false, {"name", "value"}},
-      {"integer", false, {"name", "value"}},
-      {"float", false, {"name", "value"}},
-      {"string", false, {"name", "value"}},
-      {"point", false, {"name", "value", "x", "y", "z"}},
-      {"vector", false, {"name", "value", "x", "y", "z"}},
-      {"rgb", false, {"name", "value", "intent"}},
-      {"srgb", false, {"name", "value", "intent"}},
-      {"spectrum", false, {"name", "value", "filename", "type", "id", "intent"}},
-      {"blackbody", false, {"name", "temperature", "scale"}},
-      {"transform", false, {"name", "id", "time"}},
-      {"animation", false, {"name", "id"}},
-      {"translate", false, {"value", "x", "y", "z"}},
-      {"scale", false, {"value", "x", "y", "z"}},
-      {"rotate", false, {"angle", "value", "x", "y", "z"}},
-      {"lookat", false, {"origin", "target", "up"}},
-      {"matrix", false, {"value"}},
-      {"ref", false, {"id", "name"}},
-      {"include", false, {"filename"}},
-      {"default", false, {"name", "value"}},
-      {"alias", false, {"id", "as"}},
-      {"path", false, {"value"}},
-  };
-  return tags;
-}
-
-const Tag* findTag(std::string_view name) {
-  for (const Tag& tag : knownTags()) {
-    if (name == tag.name) return &tag;
-  }
-  return nullptr;
-}
-
-std::string normalTag(std::string_view tag) {
-  if (tag == "lookAt") return "lookat";
-  if (tag == "luminaire") return "emitter";  // before 0.4
-  if (tag == "camera") return "sensor";
-  return std::string(tag);
-}
 
 // Byte offsets to lines and columns.
 class Lines {
@@ -307,7 +247,7 @@ class Loader {
   }
 
   void collectIds(const Element& element) {
-    if (isObjectTag(element.tag) || element.tag == "spectrum") {
+    if (findTag(element.tag)->object || element.tag == "spectrum") {
       if (const std::string id = element.valueOr("id", ""); !id.empty()) add(id, element);
     }
     for (const Element& child : element.children) collectIds(child);
@@ -423,11 +363,6 @@ std::string snakeCase(std::string_view name) {
     }
   }
   return out;
-}
-
-bool isObjectTag(std::string_view tag) {
-  const Tag* known = findTag(tag);
-  return known && known->object;
 }
 
 }  // namespace lobelia::io::mitsuba

@@ -61,6 +61,5 @@ Document loadDocument(const std::string& file,
 
 // "maxDepth" -> "max_depth", "intIOR" -> "int_ior"; snake_case stays as it is.
 std::string snakeCase(std::string_view name);
-bool isObjectTag(std::string_view tag);
 
 }  // namespace lobelia::io::mitsuba
