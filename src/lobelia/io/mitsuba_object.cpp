@@ -1,3 +1,5 @@
+// Typed access to the properties of an object of a Mitsuba scene, strict numbers, and transforms.
+
 #include "lobelia/io/mitsuba_object.h"
 
 #include <charconv>

@@ -1,3 +1,5 @@
+// The tables follow the manuals of Mitsuba 0.6 and Mitsuba 3 (scene format).
+
 #include "lobelia/io/mitsuba_tags.h"
 
 namespace lobelia::io::mitsuba {
