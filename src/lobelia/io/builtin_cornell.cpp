@@ -103,7 +103,7 @@ class Box {
     tiles.type = TextureType::checkerboard;
     tiles.a = add(light), tiles.b = add(dark);
     tiles.uvMatrix[0][0] = tiles.uvMatrix[1][1] = 4;  // 8 x 8 tiles
-    const MaterialHandle floor = add(coated(add(tiles), 0.16f), "polished tiles");
+    const MaterialHandle floor = add(coated(add(tiles), 0.13f), "polished tiles");
     const MaterialHandle white = add(diffuse(Rgb(0.74f, 0.71f, 0.66f)), "white wall");
     const MaterialHandle red = add(diffuse(Rgb(0.60f, 0.055f, 0.045f)), "red wall");
     const MaterialHandle green = add(diffuse(Rgb(0.105f, 0.42f, 0.095f)), "green wall");
@@ -121,7 +121,7 @@ class Box {
     Emitter emitter;
     emitter.type = EmitterType::area;
     emitter.name = "lamp";
-    emitter.radiance = Rgb(13.5f, 10.4f, 6.9f);
+    emitter.radiance = Rgb(21.f, 16.5f, 11.4f);
     scene_.emitters.push_back(emitter);
     const MaterialHandle black = add(diffuse(Rgb(0.f)), "lamp glass");
     place(
@@ -149,7 +149,7 @@ class Box {
   void addBlockAndKnot() {
     const Vec3d at{0.38, 0, -0.05};
     const Vec3f half{0.31f, 0.23f, 0.31f};
-    const MaterialHandle lacquer = add(coated(Rgb(0.028f, 0.075f, 0.21f), 0.1f), "blue lacquer");
+    const MaterialHandle lacquer = add(coated(Rgb(0.035f, 0.14f, 0.42f), 0.08f), "blue lacquer");
     place(add(roundedBox(half, 0.025f, segments(6, 1)), "block"),
           translation(at + Vec3d(0, static_cast<double>(half.y), 0)) * rotation({0, 1, 0}, -18),
           lacquer, "block");
@@ -167,7 +167,7 @@ class Box {
   }
 
   void addVase() {
-    const MaterialHandle glaze = add(coated(Rgb(0.70f, 0.66f, 0.58f), 0.07f), "glaze");
+    const MaterialHandle glaze = add(coated(Rgb(0.80f, 0.76f, 0.68f), 0.06f), "glaze");
     // From the middle of the foot up the outside, over the lip and down the inside.
     const auto profile = smoothCurve(
         {{0, 0},           {0.10f, 0},       {0.165f, 0.012f}, {0.185f, 0.06f},  {0.245f, 0.25f},
@@ -185,14 +185,14 @@ class Box {
     glass.ior = 1.5f;
     const MaterialHandle clear = add(glass, "glass");
     const MaterialHandle copper =
-        add(metal({0.2004f, 0.9240f, 1.1022f}, {3.9129f, 2.4528f, 2.1421f}, 0.25f), "copper");
+        add(metal({0.2004f, 0.9240f, 1.1022f}, {3.9129f, 2.4528f, 2.1421f}, 0.2f), "copper");
     const MeshHandle mesh = add(ball(), "ball");
     const auto put = [&](double radius, double x, double z, MaterialHandle material,
                          const char* name) {
       place(mesh, translation({x, radius, z}) * scaling(Vec3d(radius)), material, name);
     };
     put(0.19, -0.20, 0.42, clear, "glass ball");
-    put(0.12, -0.70, 0.30, copper, "copper ball");
+    put(0.14, -0.68, 0.36, copper, "copper ball");
   }
 
   void addCamera() {
