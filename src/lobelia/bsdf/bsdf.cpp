@@ -100,6 +100,8 @@ std::optional<DeltaEvent> deltaEvent(const Lobe& lobe, Vec3f wo) {
 Rgb evaluateLocal(const Bsdf& bsdf, Vec3f wo, Vec3f wi, Vec3f o, Vec3f i, LobeSet set,
                   Transport transport) {
   Rgb sum{};
+  const float shadow =
+      bumpShadow(bsdf.baseNormal, bsdf.bumpAlpha2, transport == Transport::radiance ? wi : wo);
   for (int l = 0; l < bsdf.lobeCount; ++l) {
     const Lobe& lobe = bsdf.lobes[l];
     if (!inSet(lobe, set) || isDelta(lobe)) continue;
@@ -110,7 +112,7 @@ Rgb evaluateLocal(const Bsdf& bsdf, Vec3f wo, Vec3f wi, Vec3f o, Vec3f i, LobeSe
       sum += value * importanceFactor(bsdf, lobe, wo, wi);
     }
   }
-  return sum;
+  return sum * shadow;
 }
 
 }  // namespace
@@ -169,6 +171,8 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f 
     if (!agrees(bsdf, result.wi, event->wi.z)) return std::nullopt;
     if (transport == Transport::importance)
       result.weight *= importanceFactor(bsdf, lobe, wo, result.wi);
+    result.weight *= bumpShadow(bsdf.baseNormal, bsdf.bumpAlpha2,
+                                transport == Transport::radiance ? result.wi : wo);
     if (maxComponent(result.weight) <= 0) return std::nullopt;
     return result;
   }

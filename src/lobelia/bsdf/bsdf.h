@@ -15,13 +15,13 @@ enum class LobeSet : uint8_t { rough = 1, sharp = 2, all = 3 };
 enum class Transport : uint8_t { radiance, importance };
 
 struct BsdfSample {
-  Vec3f wi;              // unit, world space, leaves the surface
-  Rgb weight;            // f |cos| / pdf over the chosen LobeSet
-  float pdf = 0;         // solid angle, of the whole LobeSet's mixture; 0 for delta
-  bool delta = false;    // chosen from a delta lobe
-  bool sharp = false;    // the lobe it was drawn from is sharp
+  Vec3f wi;            // unit, world space, leaves the surface
+  Rgb weight;          // f |cos| / pdf over the chosen LobeSet
+  float pdf = 0;       // solid angle, of the whole LobeSet's mixture; 0 for delta
+  bool delta = false;  // chosen from a delta lobe
+  bool sharp = false;  // the lobe it was drawn from is sharp
   bool transmission = false;
-  float eta = 1;         // relative index along the path (for Russian roulette)
+  float eta = 1;  // relative index along the path (for Russian roulette)
 };
 
 // f |cos| of the non-delta lobes of the set; world-space unit directions.
@@ -32,6 +32,14 @@ float pdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set = LobeSet::all);
 std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f u,
                                  LobeSet set = LobeSet::all,
                                  Transport transport = Transport::radiance);
+// Share of the light from direction w (leaving the surface) that reaches a bump- or normal-mapped
+// surface: the microfacet shadowing function of Conty Estevez, Lecocq and Stein 2019 [Estevez19],
+// which softens the terminator. alpha2: Bsdf::bumpAlpha2. evaluate() and sample() contain it.
+inline float bumpShadow(Vec3f baseNormal, float alpha2, Vec3f w) {
+  if (alpha2 == 0) return 1;
+  const float c2 = sqr(dot(w, baseNormal));
+  return c2 > 0 ? 2 / (1 + std::sqrt(1 + alpha2 * (1 - c2) / c2)) : 0.f;
+}
 bool hasLobes(const Bsdf& bsdf, LobeSet set);
 bool onlyDelta(const Bsdf& bsdf);
 // Hemispherical reflectance plus transmittance for light towards wo, estimated (tables and fits;

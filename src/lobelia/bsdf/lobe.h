@@ -68,6 +68,9 @@ struct Bsdf {
   // direction there is no reflection.
   Vec3f baseNormal{0, 0, 1};
   bool perturbed = false;
+  // Shadowing by the bumps that a perturbed normal stands for: squared roughness of the terrain
+  // [Estevez19], 0 where nothing is perturbed.
+  float bumpAlpha2 = 0;
   int lobeCount = 0;
   Lobe lobes[kMaxLobes];
   void add(const Lobe& lobe) {

@@ -48,7 +48,10 @@ HWY_INLINE Mf lightFaces(const g::PreparedLight& light, V3<Vf> d) {
 HWY_INLINE Mf receiverFaces(const g::PointStrip& strip, size_t lane, V3<Vf> d) {
   const Vf c = dot(load(strip.n, lane), d);
   const Vf above = Vf::load(strip.above + lane), below = Vf::load(strip.below + lane);
-  return (c * above > Vf(0.f)) | (c * below < Vf(0.f));
+  Mf faces = (c * above > Vf(0.f)) | (c * below < Vf(0.f));
+  // Bump maps: normal and perturbed normal must agree about the side (bsdf/lobe.h).
+  if (strip.perturbed) faces = faces & (c * dot(load(strip.base, lane), d) > Vf(0.f));
+  return faces;
 }
 
 LOBELIA_CORE_END

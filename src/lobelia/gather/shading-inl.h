@@ -59,7 +59,13 @@ void directions(const g::PointStrip& strip, size_t lane, const g::LightBlock& bl
       inverseDistance = Vf(1.f) / sqrt(dot(wi, wi));
       wi = wi * inverseDistance;
     }
-    lightFactor<kClass>(light, wi, inverseDistance).store(pairs->factor[i].v);
+    Vf factor = lightFactor<kClass>(light, wi, inverseDistance);
+    if (strip.perturbed) {  // bumpShadow() of bsdf/bsdf.h
+      const Vf c = dot(load(strip.base, lane), wi), c2 = max(c * c, Vf(1e-20f));
+      const Vf alpha2 = Vf::load(strip.bumpAlpha2 + lane);
+      factor = factor * (Vf(2.f) / (Vf(1.f) + sqrt(Vf(1.f) + alpha2 * (Vf(1.f) - c2) / c2)));
+    }
+    factor.store(pairs->factor[i].v);
     dot(wi, s).store(pairs->wiX[i].v);
     dot(wi, t).store(pairs->wiY[i].v);
     dot(wi, n).store(pairs->wiZ[i].v);

@@ -52,6 +52,10 @@ void setPoint(const Receivers& receivers, size_t index, int lane, PointStrip* st
   strip->t.set(lane, point.frame.t);
   strip->n.set(lane, point.frame.n);
   strip->ng.set(lane, point.ng);
+  const bool perturbed = point.bumpAlpha2 > 0;
+  strip->base.set(lane, perturbed ? point.baseNormal : point.frame.n);
+  strip->bumpAlpha2[lane] = point.bumpAlpha2;
+  strip->perturbed = strip->perturbed || perturbed;
   const Vec3f wo = point.frame.toLocal(point.wo);
   strip->wo.set(lane, wo);
   strip->front.set(lane, offsetOrigin(point.p, point.ng, point.error, point.ng));

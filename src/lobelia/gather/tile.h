@@ -34,7 +34,10 @@ struct LobeStrip {
 
 struct PointStrip {
   StripV3 p, s, t, n;
-  StripV3 wo;  // in the frame (s, t, n)
+  StripV3 base;  // normal before bump maps; n where there are none
+  alignas(64) float bumpAlpha2[kStrip];
+  bool perturbed = false;  // any lane
+  StripV3 wo;              // in the frame (s, t, n)
   StripV3 ng;
   StripV3 front, back;              // origins of rays that leave on the side of ng, on the other
   alignas(64) float above[kStrip];  // 1 where light from the side of n can be scattered to wo

@@ -96,7 +96,8 @@ void ParticleWalk::leaveLights(const SurfacePoint& at, const Bsdf& bsdf, Vec3f w
   const float cosShading = dot(wi, bsdf.frame.n), cosGeometric = dot(wi, bsdf.ng);
   // Light that arrives from one side by the shading normal and from the other in truth.
   if (!(cosShading * cosGeometric > 0)) return;
-  const Rgb arriving = power * (cosShading / cosGeometric);
+  const Rgb arriving =
+      power * (cosShading / cosGeometric * bumpShadow(bsdf.baseNormal, bsdf.bumpAlpha2, wi));
   const LobeExpansion lobes = expand(bsdf, wi, settings_.gaussiansPerLobe);
   const Vec3f side = cosGeometric > 0 ? bsdf.ng : -bsdf.ng;
   const size_t before = out->diffuse.size() + out->glossy.size();

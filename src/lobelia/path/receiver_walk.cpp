@@ -180,6 +180,8 @@ void EyeWalk::record(const EyeSegment& segment, const Vertex& v, State* state) c
   r.p = v.at.p;
   r.ng = v.bsdf.ng;
   r.frame = v.bsdf.frame;
+  r.baseNormal = v.bsdf.baseNormal;
+  r.bumpAlpha2 = v.bsdf.bumpAlpha2;
   r.wo = v.wo;
   r.weight = segment.throughput / survival;
   r.error = v.at.error;

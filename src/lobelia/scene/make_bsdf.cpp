@@ -48,6 +48,10 @@ bool Walk::perturb(const Material& material, bool twoSided) {
   const float length2 = lengthSquared(n);
   if (!(length2 > 1e-20f) || !std::isfinite(length2)) return true;
   n = n / std::sqrt(length2);
+  // A normal that turns away from wo is turned about the old one [Schuessler17].
+  Vec3f seen = base.toLocal(wo);
+  if (twoSided && seen.z < 0) seen.z = -seen.z;
+  if (seen.z * dot(seen, n) <= 0) n = {-n.x, -n.y, n.z};
   // Tangent: the old one, made orthogonal.
   Frame local = frameFromNormalTangent(n, Vec3f(1, 0, 0));
   const float side = dot(wo, base.n);
@@ -58,6 +62,8 @@ bool Walk::perturb(const Material& material, bool twoSided) {
   }
   bsdf.frame = {base.toWorld(local.s), base.toWorld(local.t), base.toWorld(local.n)};
   bsdf.perturbed = true;
+  const float cos2 = n.z * n.z;
+  bsdf.bumpAlpha2 = std::min(0.125f * (1 - cos2), cos2) / std::max(cos2, 1e-20f);
   return !twoSided || side * dot(wo, bsdf.frame.n) > 0;
 }
 
