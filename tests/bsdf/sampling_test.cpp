@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bsdf/lobe_examples.h"
+#include "lobelia/bsdf/microfacet_sampling.h"
 #include "support/chi_squared.h"
 
 namespace lobelia::test {
@@ -13,6 +14,12 @@ struct View {
 constexpr View kViews[] = {{0.97f, 0.4f}, {0.5f, 2.f}, {0.08f, 1.f}, {-0.6f, 0.7f}};
 
 bool actsFrom(const Bsdf& bsdf, float cosTheta) { return cosTheta > 0 || bsdf.lobes[0].interface; }
+
+TEST(BsdfSampling, InverseErf) {
+  for (const float x : {-0.9999f, -0.95f, -0.3f, 0.f, 1e-4f, 0.5f, 0.99f, 0.99999f})
+    EXPECT_NEAR(std::erf(inverseErf(x)), x, 2e-6f);
+  EXPECT_TRUE(std::isfinite(inverseErf(1.f)) && std::isfinite(inverseErf(-1.f)));
+}
 
 TEST(BsdfSampling, FollowsItsDensity) {
   const std::vector<Example> all = examples();

@@ -15,16 +15,17 @@ namespace {
 
 using Grid = AlbedoGrid<1>;
 
-// Mean of f(u, phi) over u in (0,1), phi in (0, pi).
+// Mean of f(u, phi) over u in (0,1), phi in (0, pi). Dense in u, because Ward's lobe ends abruptly
+// at the horizon.
 template <class F>
 Grid::Entry meanOverNormals(const F& f) {
-  static const GaussRule rule = gaussLegendre(40);
+  static const GaussRule radii = gaussLegendre(64), azimuths = gaussLegendre(40);
   double sum = 0;
-  for (size_t a = 0; a < rule.nodes.size(); ++a)
-    for (size_t b = 0; b < rule.nodes.size(); ++b)
-      sum += rule.weights[a] * rule.weights[b] *
-             static_cast<double>(
-                 f(static_cast<float>(rule.nodes[a]), kPi * static_cast<float>(rule.nodes[b])));
+  for (size_t a = 0; a < radii.nodes.size(); ++a)
+    for (size_t b = 0; b < azimuths.nodes.size(); ++b)
+      sum += radii.weights[a] * azimuths.weights[b] *
+             static_cast<double>(f(static_cast<float>(radii.nodes[a]),
+                                   kPi * static_cast<float>(azimuths.nodes[b])));
   return {static_cast<float>(sum)};
 }
 
@@ -47,7 +48,7 @@ Grid makePhongGrid() {
 }
 
 Grid makeWardGrid(int variant) {
-  return Grid(56, 28, 0.004f, 2.f, [variant](float cosine, float alpha) {
+  return Grid(44, 22, 0.004f, 2.f, [variant](float cosine, float alpha) {
     const Vec3f wo = woAt(cosine);
     return meanOverNormals([&](float u, float phi) {
       const float tan2 = -alpha * alpha * std::log1p(-u);

@@ -19,7 +19,7 @@ namespace lobelia {
 namespace {
 
 constexpr int kNodes = 10;
-constexpr int kNormals = 28;           // nodes per dimension of the micro-normals
+constexpr int kNormals = 24;           // nodes per dimension of the micro-normals
 constexpr float kReferenceEta = 1.5f;  // see microfacetTransmittance()
 using Grid = AlbedoGrid<kNodes + 2>;   // transmittance at the reference index, from both sides
 
@@ -124,8 +124,8 @@ Grid makeGrid(Distribution distribution) {
   };
   if (distribution == Distribution::gtr1) return {33, 12, 0.001f, 0.1f, integrate};
   // Exponents of the Phong distribution end at alpha 1.
-  if (distribution == Distribution::phong) return {56, 25, 0.004f, 1.f, integrate};
-  return {56, 28, 0.004f, 2.f, integrate};
+  if (distribution == Distribution::phong) return {44, 25, 0.004f, 1.f, integrate};
+  return {44, 25, 0.004f, 2.f, integrate};
 }
 
 // Built on first use, one per distribution.

@@ -8,7 +8,8 @@
 namespace lobelia {
 namespace {
 
-constexpr double kSqrtPi = 1.7724538509055160273;
+constexpr float kSqrtPi = 1.77245385090551603f;
+constexpr float kLargestSlope = 5.4f;  // Gaussian slopes beyond have a probability of 1e-14
 
 Vec3f sampleGgxVisible(float alphaX, float alphaY, Vec3f w, Vec2f u) {
   const Vec3f stretched = normalize(Vec3f(alphaX * w.x, alphaY * w.y, w.z));
@@ -20,27 +21,28 @@ Vec3f sampleGgxVisible(float alphaX, float alphaY, Vec3f w, Vec2f u) {
 }
 
 // Slope along the plane of incidence as seen from elevation (sin, cos) for unit roughness: solves
-// cos (1 + erf s) + sin exp(-s^2) / sqrt(pi) = u * (its value at s = cot).
-double sampleBeckmannSlope(double sinTheta, double cosTheta, double u) {
-  const double limit = cosTheta < 5.8 * sinTheta ? cosTheta / sinTheta : 5.8;
-  const auto cumulative = [&](double s) {
-    return cosTheta * (1 + std::erf(s)) + sinTheta / kSqrtPi * std::exp(-s * s);
-  };
-  const double target = u * cumulative(limit);
-  double lo = -5.8, hi = limit;
+// cos erfc(-s) + sin exp(-s^2) / sqrt(pi) = u * (its value at s = cot) by Newton's method within
+// brackets.
+float sampleBeckmannSlope(float sinTheta, float cosTheta, float u) {
+  const float limit = cosTheta < kLargestSlope * sinTheta ? cosTheta / sinTheta : kLargestSlope;
+  const float sine = sinTheta / kSqrtPi;
+  const float atLimit = cosTheta * std::erfc(-limit) + sine * std::exp(-limit * limit);
+  const float target = std::max(u, 1e-9f) * atLimit;
+  float lo = -kLargestSlope, hi = limit;
   // Exact for grazing directions; close enough elsewhere to start from.
-  const double edge = std::erf(limit);
-  double s = inverseErf(edge - (edge + 1) * std::erf(std::sqrt(-std::log(std::max(u, 1e-12)))));
-  if (!(s > lo && s < hi)) s = 0.5 * (lo + hi);
-  for (int i = 0; i < 40; ++i) {
-    const double error = cumulative(s) - target;
+  const float edge = std::erf(limit);
+  float s = inverseErf(edge - (edge + 1) * std::erf(std::sqrt(-std::log(std::max(u, 1e-9f)))));
+  if (!(s > lo && s < hi)) s = 0.5f * (lo + hi);
+  for (int i = 0; i < 24; ++i) {
+    const float gauss = std::exp(-s * s);
+    const float error = cosTheta * std::erfc(-s) + sine * gauss - target;
     (error > 0 ? hi : lo) = s;
-    const double slope = 2 / kSqrtPi * std::exp(-s * s) * (cosTheta - s * sinTheta);
-    double next = s - error / slope;
-    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-    const double step = std::abs(next - s);
+    const float slope = 2 / kSqrtPi * gauss * (cosTheta - s * sinTheta);
+    float next = s - error / slope;
+    if (!(next > lo && next < hi)) next = 0.5f * (lo + hi);
+    const float step = std::abs(next - s);
     s = next;
-    if (step < 1e-7) break;
+    if (step < 1e-4f) break;  // the error of a Newton step is the square of the one before
   }
   return s;
 }
@@ -50,8 +52,8 @@ Vec3f sampleBeckmannVisible(float alphaX, float alphaY, Vec3f w, Vec2f u) {
   const float sinTheta = std::sqrt(stretched.x * stretched.x + stretched.y * stretched.y);
   const float cosPhi = sinTheta > 0 ? stretched.x / sinTheta : 1;
   const float sinPhi = sinTheta > 0 ? stretched.y / sinTheta : 0;
-  const float along = static_cast<float>(sampleBeckmannSlope(sinTheta, stretched.z, u.x));
-  const float across = static_cast<float>(inverseErf(2.0 * u.y - 1.0));
+  const float along = sampleBeckmannSlope(sinTheta, stretched.z, u.x);
+  const float across = inverseErf(2 * u.y - 1);
   const float slopeX = (cosPhi * along - sinPhi * across) * alphaX;
   const float slopeY = (sinPhi * along + cosPhi * across) * alphaY;
   return normalize(Vec3f(-slopeX, -slopeY, 1));
@@ -88,24 +90,28 @@ float beckmannMasking(float alphaX, float alphaY, Vec3f w) {
   const float t = std::sqrt(sqr(alphaX * w.x) + sqr(alphaY * w.y));
   if (t < 0.2f * w.z) return 1;  // 1 - 1e-12
   const float a = w.z / t;
-  const float twice = 1 + std::erf(a) + std::exp(-a * a) / (a * static_cast<float>(kSqrtPi));
+  const float twice = 1 + std::erf(a) + std::exp(-a * a) / (a * kSqrtPi);
   return 2 / twice;
 }
 
 }  // namespace
 
-double inverseErf(double x) {
-  if (x <= -1 + 1e-15) return -5.8;
-  if (x >= 1 - 1e-15) return 5.8;
-  // Winitzki 2008 (0.2 %), then two Newton steps (Halley's correction).
-  const double ln = std::log1p(-x * x);
-  const double t = 2 / (3.14159265358979 * 0.147) + 0.5 * ln;
-  double y = std::copysign(std::sqrt(std::sqrt(t * t - ln / 0.147) - t), x);
-  for (int i = 0; i < 2; ++i) {
-    const double e = (std::erf(y) - x) * 0.5 * kSqrtPi * std::exp(y * y);
-    y -= e / (1 + y * e);
-  }
-  return std::clamp(y, -5.8, 5.8);
+// Giles 2010, "Approximating the erfinv function", single precision.
+float inverseErf(float x) {
+  const auto horner = [](float w, const float(&c)[9]) {
+    float p = c[0];
+    for (int i = 1; i < 9; ++i) p = p * w + c[i];
+    return p;
+  };
+  static constexpr float kCentre[9] = {2.81022636e-08f,  3.43273939e-07f, -3.5233877e-06f,
+                                       -4.39150654e-06f, 0.00021858087f,  -0.00125372503f,
+                                       -0.00417768164f,  0.246640727f,    1.50140941f};
+  static constexpr float kTail[9] = {-0.000200214257f, 0.000100950558f, 0.00134934322f,
+                                     -0.00367342844f,  0.00573950773f,  -0.0076224613f,
+                                     0.00943887047f,   1.00167406f,     2.83297682f};
+  const float w = -std::log(std::max((1 - x) * (1 + x), 1e-14f));
+  const float p = w < 5 ? horner(w - 2.5f, kCentre) : horner(std::sqrt(w) - 3, kTail);
+  return std::clamp(p * x, -kLargestSlope, kLargestSlope);
 }
 
 Vec3f sampleMicroNormal(Distribution distribution, float alphaX, float alphaY, Vec3f w, Vec2f u) {

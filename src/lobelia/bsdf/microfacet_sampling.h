@@ -17,7 +17,7 @@ Vec3f sampleMicroNormal(Distribution distribution, float alphaX, float alphaY, V
 // uses a rational fit of the masking term: the weights then carry that fit's ratio.
 float microNormalPdf(Distribution distribution, float alphaX, float alphaY, Vec3f w, Vec3f m);
 
-// Inverse of the error function for |x| < 1 (for |x| -> 1 clamped at erf^-1 = 5.8).
-double inverseErf(double x);
+// Inverse of the error function; finite also for |x| = 1.
+float inverseErf(float x);
 
 }  // namespace lobelia
