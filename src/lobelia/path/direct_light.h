@@ -38,32 +38,44 @@ bool unoccluded(const Rays& tracer, const LightQuery& q, const EmitterDirection&
   return !tracer.occluded(ray);
 }
 
-// One sample of the light that an emitter sends to q, times f |cos| of the lobes in `lobes`.
-// `sampled`: the lobes among which the accompanying BSDF samples are drawn (MIS); pass withBsdf =
-// false when no BSDF sample accompanies. u: three uniform numbers. Counts the shadow ray.
+// Light that emitters send to q, times f |cos| of the lobes in `lobes`: the mean of `count` emitter
+// samples, stratified over the choice of the emitter. `sampled`: the lobes among which the one
+// accompanying BSDF sample is drawn (MIS); pass withBsdf = false when there is none. u: three
+// uniform numbers. Counts the shadow rays.
 template <class Rays>
 Rgb sampleDirectLight(const Rays& tracer, const EmitterSampler& emitters, const LightQuery& q,
                       const Bsdf& bsdf, Vec3f wo, LobeSet lobes, LobeSet sampled, bool withBsdf,
-                      Vec3f u, uint64_t* shadowRays) {
-  const auto light = emitters.sampleDirection(q.p, q.n, u);
-  if (!light) return {};
-  Rgb value = evaluate(bsdf, wo, light->wi, lobes) * light->weight;
-  if (value == Rgb{}) return {};
-  if (!light->delta && withBsdf) {
-    value *= powerHeuristic(light->pdf, pdf(bsdf, wo, light->wi, sampled));
+                      Vec3f u, uint64_t* shadowRays, int count = 1) {
+  const float n = static_cast<float>(count);
+  Rgb sum{};
+  for (int i = 0; i < count; ++i) {
+    // Places on the emitter: the plastic number's lattice (Roberts 2018), shifted by u.
+    const float k = static_cast<float>(i);
+    const float y = u.y + k * 0.7548776662f, z = u.z + k * 0.5698402910f;
+    const Vec3f ui{std::min((u.x + k) / n, 0x1.fffffep-1f), y - std::floor(y), z - std::floor(z)};
+    const auto light = emitters.sampleDirection(q.p, q.n, ui);
+    if (!light) continue;
+    Rgb value = evaluate(bsdf, wo, light->wi, lobes) * light->weight;
+    if (value == Rgb{}) continue;
+    if (!light->delta && withBsdf) {
+      value *= powerHeuristic(n * light->pdf, pdf(bsdf, wo, light->wi, sampled));
+    }
+    ++*shadowRays;
+    if (unoccluded(tracer, q, *light)) sum += value;
   }
-  ++*shadowRays;
-  return unoccluded(tracer, q, *light) ? value : Rgb{};
+  return sum / n;
 }
 
-// MIS weight of emission met by a BSDF sample of density bsdfPdf drawn at q. delta: the sample came
+// MIS weight of emission met by a BSDF sample of density bsdfPdf drawn at q, where `count` emitter
+// samples were taken. delta: the sample came
 // from a delta lobe, which no emitter sample can replace. hit: null when the ray escaped.
 inline float emissionWeight(const EmitterSampler& emitters, const LightQuery& q,
-                            const SurfacePoint* hit, Vec3f wi, float bsdfPdf, bool delta) {
+                            const SurfacePoint* hit, Vec3f wi, float bsdfPdf, bool delta,
+                            int count = 1) {
   if (delta) return 1;
   const float lightPdf =
       hit ? emitters.pdfHit(q.p, q.n, *hit, wi) : emitters.pdfEscaped(q.p, q.n, wi);
-  return powerHeuristic(bsdfPdf, lightPdf);
+  return powerHeuristic(bsdfPdf, static_cast<float>(count) * lightPdf);
 }
 
 }  // namespace lobelia

@@ -18,6 +18,7 @@ struct PathSettings {
   int spp = 64;
   int maxDepth = -1;  // Mitsuba's count; -1 unlimited
   int rouletteDepth = 5;
+  int directSamples = 4;          // emitter samples at vertices seen directly or by sharp lobes
   float specularLimit = 0.08f;
   Component component = Component::all;
   double timeLimit = 0;  // seconds; 0: none. Samples are added in passes over the image.

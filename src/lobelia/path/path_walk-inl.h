@@ -16,11 +16,12 @@ PathResult PathWalk<Rays>::trace(Ray ray, PathRandom& random, PathCounts& counts
   Rgb metDirect(1.f), metIndirect{};  // factor of emission that the current ray meets
   LightQuery from;                    // where the ray started, and how it was drawn
   float pdfFrom = 0, eta = 1;
+  int samplesFrom = 1;
   bool deltaFrom = true;
 
   const auto meet = [&](Rgb radiance, const SurfacePoint* hit, int depth) {
     if (radiance == Rgb{} || (depth == 1 && settings_.hideEmitters)) return;
-    radiance *= emissionWeight(emitters_, from, hit, ray.d, pdfFrom, deltaFrom);
+    radiance *= emissionWeight(emitters_, from, hit, ray.d, pdfFrom, deltaFrom, samplesFrom);
     result.direct += metDirect * radiance;
     result.indirect += metIndirect * radiance;
   };
@@ -52,6 +53,7 @@ PathResult PathWalk<Rays>::trace(Ray ray, PathRandom& random, PathCounts& counts
       if (depth >= maxDepth) break;
     }
     from = lightQuery(at, bsdf, wo);
+    samplesFrom = chain != Rgb{} ? std::max(settings_.directSamples, 1) : 1;
 
     const bool wanted = settings_.component != Component::indirect || indirect != Rgb{};
     if (wanted && !onlyDelta(bsdf)) {
@@ -59,7 +61,7 @@ PathResult PathWalk<Rays>::trace(Ray ray, PathRandom& random, PathCounts& counts
       const Vec2f place = random.next2D();
       const Rgb light =
           sampleDirectLight(tracer_, emitters_, from, bsdf, wo, LobeSet::all, LobeSet::all, true,
-                            {select, place.x, place.y}, &counts.shadowRays);
+                            {select, place.x, place.y}, &counts.shadowRays, samplesFrom);
       result.direct += chain * light;
       result.indirect += indirect * light;
     }
