@@ -312,11 +312,27 @@ TEST(MakeBsdf, NormalMapTurnsTheFrame) {
   EXPECT_NEAR(dot(bsdf.frame.n, n), 1.f, 1e-5f);
   EXPECT_NEAR(dot(bsdf.frame.s, bsdf.frame.n), 0.f, 1e-6f);
   EXPECT_NEAR(dot(cross(bsdf.frame.s, bsdf.frame.t), bsdf.frame.n), 1.f, 1e-5f);
-  EXPECT_NEAR(evaluate(bsdf, wo, wi).x, dot(wi, n) * kInvPi, 1e-5f);
+  // The softened terminator [Estevez19], written down once more.
+  const float terrain = std::min(0.125f * (1 / sqr(n.z) - 1), 1.f);
+  const float shadow = 2 / (1 + std::sqrt(1 + terrain * (1 / sqr(wi.z) - 1)));
+  EXPECT_NEAR(evaluate(bsdf, wo, wi).x, dot(wi, n) * kInvPi * shadow, 1e-5f);
+  EXPECT_LT(shadow, 0.999f);
   EXPECT_TRUE(bsdf.perturbed);
   // Neutral: nothing changes.
   m.map = addConstant(f.scene, {0.5f, 0.5f, 1});
   EXPECT_NEAR(evaluate(f.make(f.add(m), wo), wo, wi).x, wi.z * kInvPi, 1e-6f);
+}
+
+TEST(MakeBsdf, NormalsThatFaceAwayAreTurned) {
+  Fixture f;
+  Material m = wrap(MaterialType::normalMap, f.add(diffuse(Rgb(1.f))));
+  const Vec3f n = normalize(Vec3f(1, 0, 1));
+  m.map = addConstant(f.scene, (n + Vec3f(1.f)) * 0.5f);
+  const MaterialHandle handle = f.add(m);
+  const Vec3f away = directionAt(0.3f, kPi);  // behind n, above the surface
+  ASSERT_LT(dot(away, n), 0.f);
+  EXPECT_NEAR(dot(f.make(handle, away).frame.n, Vec3f(-n.x, 0, n.z)), 1.f, 1e-5f);
+  EXPECT_NEAR(dot(f.make(handle, directionAt(0.3f, 0)).frame.n, n), 1.f, 1e-5f);
 }
 
 // Height u * slope: the normal leans back by it. A ramp image of the same slope everywhere.

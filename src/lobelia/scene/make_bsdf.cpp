@@ -3,9 +3,11 @@
 //
 // Bump maps follow Blinn 1978 as Mitsuba has them: the tangents are displaced by the gradient of
 // the height along the shading normal; derivatives of the normal are neglected. A two-sided
-// material that wraps a perturbed one shows its mirror image from behind. Deviation: a BSDF has one
+// material that wraps a perturbed one shows its mirror image from behind.
+// Normals that face away from the viewer are turned as in Schuessler et al. 2017 [Schuessler17],
+// the terminator is softened [Estevez19], both as in Mitsuba since 3.7. Deviations: a BSDF has one
 // frame. Where the branches of a blend are perturbed differently, all lobes take the frame of the
-// heavier branch.
+// heavier branch; of maps within maps only the outermost counts.
 #include <cmath>
 
 #include "lobelia/bsdf/bsdf.h"
