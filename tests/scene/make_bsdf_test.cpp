@@ -295,6 +295,19 @@ TEST(MakeBsdf, PhongAndWardAddADiffuseLobe) {
   EXPECT_NEAR(evaluate(f.make(f.add(m), wo), wo, wi).x, expected * 0.6f, 1e-5f);
 }
 
+TEST(MakeBsdf, PhongDoesNotCreateEnergy) {
+  Fixture f;
+  Material m;
+  m.type = MaterialType::phong;
+  m.diffuse = Rgb(0.8f, 0.2f, 0.2f);
+  m.specular = Rgb(0.7f, 0.1f, 0.1f);
+  m.alphaU = m.alphaV = 20.f;
+  const Vec3f wo = directionAt(0.9f, 1);
+  const Bsdf bsdf = f.make(f.add(m), wo);
+  EXPECT_NEAR(bsdf.lobes[0].weight.x + bsdf.lobes[1].weight.x, 0.99f, 1e-5f);
+  EXPECT_NEAR(bsdf.lobes[0].weight.y / bsdf.lobes[0].weight.x, 0.25f, 1e-5f);
+}
+
 TextureHandle addConstant(Scene& scene, Rgb value) {
   Texture t;
   t.value = value;

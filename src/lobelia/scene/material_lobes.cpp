@@ -162,9 +162,16 @@ void addRoughPlastic(const Builder& b) {
              table.internalReflectance);
 }
 
-// phong and ward: a glossy lobe over a diffuse one, side by side.
+// phong and ward: a glossy lobe over a diffuse one, side by side. Where they add up to more than
+// one both are scaled to 0.99 in all, as Mitsuba 0.6 does (there by the maxima of textures, here by
+// their values).
 void addGlossy(const Builder& b, Lobe glossy) {
-  const Rgb diffuse = b.color(b.material.diffuse), specular = b.color(b.material.specular);
+  Rgb diffuse = b.color(b.material.diffuse), specular = b.color(b.material.specular);
+  const float most = maxComponent(diffuse + specular);
+  if (most > b.weight) {
+    const float scale = 0.99f * b.weight / most;
+    diffuse *= scale, specular *= scale;
+  }
   b.add(b.lobe(LobeType::lambert), diffuse, mean(diffuse));
   b.add(glossy, specular, mean(specular));
 }
