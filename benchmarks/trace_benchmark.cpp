@@ -159,7 +159,7 @@ void bare(benchmark::State& state, Pattern pattern, bool coherent) {
   run(state, rays.size(), [&](size_t k) {
     RTCRay16 r = rays[k];
     embree::QueryContext context;
-    embree::occluded16(kAll, room().accel.top(), context, coherent, r);
+    embree::occludedPacket(kAll, room().accel.top(), context, coherent, r);
     int visible = 0;
     for (float t : r.tfar) visible += t >= 0 ? 1 : 0;
     return visible;

@@ -179,6 +179,7 @@ void Accel::build(const Scene& scene) {
       attach(shared, newTriangles(scene, mesh, nullptr, use.masked), 0);
       commit(shared);
     }
+    instanced_ = true;
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, shared);
     float matrix[12];

@@ -15,6 +15,7 @@ class Accel {
   Accel& operator=(const Accel&) = delete;
 
   RTCScene top() const { return top_; }
+  bool instanced() const { return instanced_; }  // are there Embree instances?
   int64_t bytes() const { return device_.bytes(); }
 
  private:
@@ -29,6 +30,7 @@ class Accel {
 
   Device device_;
   RTCScene top_ = nullptr;
+  bool instanced_ = false;
   std::vector<RTCScene> shared_;  // by mesh; null where the mesh is not instanced
 };
 

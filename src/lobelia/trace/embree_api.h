@@ -8,6 +8,8 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <type_traits>
+
 #include "lobelia/trace/tracer.h"
 
 namespace lobelia::embree {
@@ -44,14 +46,19 @@ inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {
   arguments.context = &context.base;
   rtcOccluded1(scene, &ray, &arguments);
 }
-inline void occluded16(const int* valid, RTCScene scene, QueryContext& context, bool coherent,
-                       RTCRay16& rays) {
+template <class Rays>
+void occludedPacket(const int* valid, RTCScene scene, QueryContext& context, bool coherent,
+                    Rays& rays) {
   rtcInitRayQueryContext(&context.base);
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
   arguments.flags = queryFlags(coherent);
   arguments.context = &context.base;
-  rtcOccluded16(valid, scene, &rays, &arguments);
+  if constexpr (std::is_same_v<Rays, RTCRay16>) {
+    rtcOccluded16(valid, scene, &rays, &arguments);
+  } else {
+    rtcOccluded8(valid, scene, &rays, &arguments);
+  }
 }
 #else
 inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
@@ -62,11 +69,16 @@ inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {
   rtcInitIntersectContext(&context.base);
   rtcOccluded1(scene, &context.base, &ray);
 }
-inline void occluded16(const int* valid, RTCScene scene, QueryContext& context, bool coherent,
-                       RTCRay16& rays) {
+template <class Rays>
+void occludedPacket(const int* valid, RTCScene scene, QueryContext& context, bool coherent,
+                    Rays& rays) {
   rtcInitIntersectContext(&context.base);
   if (coherent) context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcOccluded16(valid, scene, &context.base, &rays);
+  if constexpr (std::is_same_v<Rays, RTCRay16>) {
+    rtcOccluded16(valid, scene, &context.base, &rays);
+  } else {
+    rtcOccluded8(valid, scene, &context.base, &rays);
+  }
 }
 #endif
 
