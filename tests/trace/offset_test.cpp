@@ -112,7 +112,7 @@ TEST_P(Contact, ShadowsStartAtTheContact) {
     for (int i = 0; i < 5000; ++i) {
       const float y = 8 * rng.next1D() - 4;
       const float gap =
-          std::max(2e-5f, static_cast<float>(offset) * 2e-5f) * (1 + 9 * rng.next1D());
+          std::max(1e-4f, static_cast<float>(offset) * 2e-5f) * (1 + 9 * rng.next1D());
       const Vec3f above = m.point({-gap, y, 1});
       const auto hit = tracer.intersect({above, m.vector({0, 0, -1})});
       ASSERT_TRUE(hit);
