@@ -28,6 +28,7 @@ void Reader::read() {
     context_.progress("load", static_cast<double>(i) / static_cast<double>(shapes.size()));
     shape(*shapes[i]);
   }
+  assumeTwoSided();
   for (const Element* e : root.nested("emitter")) emitter(*e);
   for (const Element* e : root.nested("sensor")) sensor(*e);
   if (scene_.cameras.empty()) defaultSensor();

@@ -59,6 +59,10 @@ class Reader {
   void conductor(Object& object, Material* out);
   void roughness(Object& object, Material* out);
 
+  // mitsuba_two_sided.cpp
+  void assumeTwoSided();
+  MaterialHandle twoSided(MaterialHandle handle);
+
   // mitsuba_emitters.cpp
   void emitter(const Element& element);  // not attached to a shape
   EmitterHandle areaEmitter(const Element& element);
@@ -95,6 +99,7 @@ class Reader {
   std::map<uint32_t, TextureHandle> exchanged_;  // checkerboards for numbers, by the original
   std::map<const Element*, MaterialHandle> materials_;
   std::map<std::string, MaterialHandle> defaultMaterials_;
+  std::map<uint32_t, MaterialHandle> twoSided_;  // by what they wrap
   std::map<const Element*, EmitterHandle> areaEmitters_;
   std::map<const Element*, std::vector<Instance>> groups_;
   std::map<std::string, MeshHandle> meshes_;

@@ -16,6 +16,10 @@ class Findings {
  public:
   Findings(std::vector<Finding>& out, bool strict) : out_(out), strict_(strict) {}
   void warn(const Location& where, const std::string& message);
+  // A choice that a reader made, worth knowing; never an error.
+  void inform(const Location& where, const std::string& message) {
+    out_.push_back({Severity::info, where, message});
+  }
   // Takes over what a mesh reader had to say.
   void add(const std::vector<Finding>& findings);
 
