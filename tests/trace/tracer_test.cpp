@@ -181,6 +181,9 @@ TEST(Tracer, RaysWithoutMeaningHitNothing) {
   packet.active[4] = 0;
   EXPECT_EQ(tracer.visible(packet, false), 0b1101u);
   EXPECT_EQ(tracer.visible(packet, true), 0b1101u);
+  packet.set(3, {0, 0, 6}, {0, 0, 20});
+  packet.tMax[3] = -nan;
+  EXPECT_EQ(tracer.visible(packet, false), 0b1101u);
 }
 
 TEST(Tracer, EmptyAndBrokenScenes) {

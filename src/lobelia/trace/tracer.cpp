@@ -10,6 +10,7 @@
 #include "lobelia/trace/tracer.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #if defined(__SSE__)
@@ -43,15 +44,14 @@ struct FlushDenormals {
 };
 #endif
 
-// Embree's own limits (its FLT_LARGE); false for NaN.
-bool isValid(float ox, float oy, float oz, float dx, float dy, float dz, float tMin, float tMax) {
-  constexpr float kLarge = 1.844e18f, kInfinity = std::numeric_limits<float>::infinity();
-  return (std::abs(ox) <= kLarge) & (std::abs(oy) <= kLarge) & (std::abs(oz) <= kLarge) &
-         (std::abs(dx) <= kLarge) & (std::abs(dy) <= kLarge) & (std::abs(dz) <= kLarge) &
-         (std::abs(tMin) <= kInfinity) & (std::abs(tMax) <= kInfinity);
+// Embree's own limit (its FLT_LARGE).
+constexpr float kLarge = 1.844e18f;
+
+bool isSmall(Vec3f v) {  // false for NaN
+  return std::abs(v.x) <= kLarge && std::abs(v.y) <= kLarge && std::abs(v.z) <= kLarge;
 }
 bool isValid(const Ray& r) {
-  return isValid(r.o.x, r.o.y, r.o.z, r.d.x, r.d.y, r.d.z, r.tMin, r.tMax);
+  return isSmall(r.o) && isSmall(r.d) && !std::isnan(r.tMin) && !std::isnan(r.tMax);
 }
 
 void setRay(const Ray& ray, RTCRay* r) {
@@ -63,34 +63,68 @@ void setRay(const Ray& ray, RTCRay* r) {
 // "Blocked" is what Embree writes into tfar.
 bool isBlocked(float tfar) { return tfar == -std::numeric_limits<float>::infinity(); }
 
+// A sufficient test of a whole packet, made for vectorisation.
+bool allValid(const ShadowPacket& p) {
+  int bad = 0;
+  for (int i = 0; i < ShadowPacket::kSize; ++i) {
+    const float sum = std::abs(p.ox[i]) + std::abs(p.oy[i]) + std::abs(p.oz[i]) +
+                      std::abs(p.dx[i]) + std::abs(p.dy[i]) + std::abs(p.dz[i]) +
+                      std::abs(p.tMin[i]);
+    bad |= static_cast<int>(!(sum <= kLarge)) | static_cast<int>(std::isnan(p.tMax[i]));
+  }
+  return bad == 0;
+}
+
+struct alignas(64) Lanes {
+  int32_t active[ShadowPacket::kSize];
+};
+Lanes validLanes(const ShadowPacket& p) {
+  Lanes lanes;
+  for (int i = 0; i < ShadowPacket::kSize; ++i) {
+    const Ray ray{{p.ox[i], p.oy[i], p.oz[i]}, {p.dx[i], p.dy[i], p.dz[i]}, p.tMin[i], p.tMax[i]};
+    lanes.active[i] = isValid(ray) ? p.active[i] : 0;
+  }
+  return lanes;
+}
+
+// Bit i: is v[i] negative?
+template <int n>
+uint32_t signBits(const float* v) {
+  uint32_t bits = 0;
+#if defined(__SSE__)
+  for (int i = 0; i < n; i += 4) {
+    bits |= static_cast<uint32_t>(_mm_movemask_ps(_mm_loadu_ps(v + i))) << i;
+  }
+#else
+  for (int i = 0; i < n; ++i) bits |= std::signbit(v[i]) ? 1u << i : 0u;
+#endif
+  return bits;
+}
+
 // Traces the lanes from `first` on, as many as Rays has; returns which are blocked.
 template <class Rays>
-uint32_t blockedLanes(const embree::Accel& accel, const ShadowPacket& packet, int first,
-                      bool coherent) {
+uint32_t blockedLanes(const embree::Accel& accel, const ShadowPacket& packet, const int32_t* active,
+                      int first, bool coherent) {
   constexpr int n = sizeof(Rays::org_x) / sizeof(float);
   Rays rays;
-  alignas(64) int32_t valid[n];
+  const auto copy = [&](float* to, const float* from) {
+    std::memcpy(to, from + first, n * sizeof(float));
+  };
+  copy(rays.org_x, packet.ox), copy(rays.org_y, packet.oy), copy(rays.org_z, packet.oz);
+  copy(rays.dir_x, packet.dx), copy(rays.dir_y, packet.dy), copy(rays.dir_z, packet.dz);
   for (int i = 0; i < n; ++i) {
-    const int k = first + i;
-    valid[i] =
-        packet.active[k] != 0 && isValid(packet.ox[k], packet.oy[k], packet.oz[k], packet.dx[k],
-                                         packet.dy[k], packet.dz[k], packet.tMin[k], packet.tMax[k])
-            ? -1
-            : 0;
-    rays.org_x[i] = packet.ox[k], rays.org_y[i] = packet.oy[k], rays.org_z[i] = packet.oz[k];
-    rays.dir_x[i] = packet.dx[k], rays.dir_y[i] = packet.dy[k], rays.dir_z[i] = packet.dz[k];
-    rays.tnear[i] = std::max(packet.tMin[k], 0.f), rays.tfar[i] = packet.tMax[k];
+    rays.tnear[i] = std::max(packet.tMin[first + i], 0.f);
+    rays.tfar[i] = std::max(0.f, packet.tMax[first + i]);
     rays.time[i] = 0;
     rays.mask[i] = 0xffffffffu;
-    rays.id[i] = static_cast<unsigned>(k);
+    rays.id[i] = static_cast<unsigned>(first + i);
     rays.flags[i] = 0;
   }
   embree::QueryContext context;
   context.packet = &packet;
-  embree::occludedPacket(valid, accel.top(), context, coherent, rays);
-  uint32_t blocked = 0;
-  for (int i = 0; i < n; ++i) blocked |= isBlocked(rays.tfar[i]) ? 1u << (first + i) : 0u;
-  return blocked;
+  embree::occludedPacket(active + first, accel.top(), context, coherent, rays);
+  // Blocked lanes are at minus infinity; no other end is negative (nor NaN: max keeps the 0 then).
+  return signBits<n>(rays.tfar) << first;
 }
 
 }  // namespace
@@ -136,16 +170,23 @@ bool Tracer::occluded(const Ray& ray) const {
 }
 
 uint32_t Tracer::visible(ShadowPacket& packet, bool coherent) const {
-  uint32_t active = 0;
-  for (int i = 0; i < ShadowPacket::kSize; ++i) active |= packet.active[i] != 0 ? 1u << i : 0u;
+  static_assert(sizeof(int32_t) == sizeof(float));
+  float signs[ShadowPacket::kSize];
+  std::memcpy(signs, packet.active, sizeof(signs));
+  const uint32_t active = signBits<ShadowPacket::kSize>(signs);
   if (active == 0) return 0;
   const FlushDenormals flush;
   const embree::Accel& accel = impl_->accel;
-  if (!accel.instanced()) return active & ~blockedLanes<RTCRay16>(accel, packet, 0, coherent);
+  Lanes valid;
+  const int32_t* lanes = packet.active;
+  if (!allValid(packet)) valid = validLanes(packet), lanes = valid.active;
+  if (!accel.instanced()) {
+    return active & ~blockedLanes<RTCRay16>(accel, packet, lanes, 0, coherent);
+  }
   // Embree 3.13.5 compiled for AVX-512 hangs in packets of 16 over instances, when coherent and
   // incoherent ones alternate (tests/trace/tracer_test.cpp shows it); packets of 8 are sound.
-  return active & ~(blockedLanes<RTCRay8>(accel, packet, 0, coherent) |
-                    blockedLanes<RTCRay8>(accel, packet, 8, coherent));
+  return active & ~(blockedLanes<RTCRay8>(accel, packet, lanes, 0, coherent) |
+                    blockedLanes<RTCRay8>(accel, packet, lanes, 8, coherent));
 }
 
 bool Tracer::visible(Vec3f a, Vec3f b) const { return !occluded({a, b - a, 0, kShadowEnd}); }
