@@ -37,6 +37,17 @@ TEST(Scene, BoundsAndTriangleCount) {
   EXPECT_TRUE(bounds(Scene{}).empty());
 }
 
+TEST(Scene, BoundsOfVeryManyTrianglesHoldThemAll) {
+  Scene s = sampleScene();
+  const Bounds3f exact = bounds(s);
+  s.instances.resize(50000, s.instances[0]);
+  const Bounds3f loose = bounds(s);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_LE(loose.lo[i], exact.lo[i] + 1e-6f);
+    EXPECT_GE(loose.hi[i], exact.hi[i] - 1e-6f);
+  }
+}
+
 TEST(SceneHash, EqualScenesHaveEqualHashes) {
   EXPECT_EQ(hash(sampleScene()), hash(sampleScene()));
   Scene named = sampleScene();

@@ -3,6 +3,13 @@
 
 namespace lobelia {
 
+namespace {
+
+// Above this many triangles in all, instances count as their transformed boxes.
+constexpr uint64_t kMaxExactTriangles = 10'000'000;
+
+}  // namespace
+
 // Of the transformed vertices that triangles use; vertices that are not finite are left out.
 Bounds3f bounds(const Scene& scene) {
   std::vector<Bounds3f> local(scene.meshes.size());
@@ -16,6 +23,7 @@ Bounds3f bounds(const Scene& scene) {
       }
     }
   }
+  const bool exact = triangleCount(scene) <= kMaxExactTriangles;
   Bounds3f all;
   for (const Instance& instance : scene.instances) {
     if (instance.mesh.index >= scene.meshes.size()) continue;
@@ -23,6 +31,13 @@ Bounds3f bounds(const Scene& scene) {
     if (box.empty()) continue;
     if (instance.toWorld.to.isIdentity()) {
       all.add(box);
+      continue;
+    }
+    if (!exact) {
+      for (int i = 0; i < 8; ++i) {
+        all.add(instance.toWorld.point({i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y,
+                                        i & 4 ? box.hi.z : box.lo.z}));
+      }
       continue;
     }
     const Mesh& mesh = scene[instance.mesh];
