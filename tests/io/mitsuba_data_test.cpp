@@ -62,7 +62,11 @@ TEST_F(MitsubaData, CornellBox) {
   EXPECT_NEAR(scene.cameras[0].fovX, 19.5f * kPi / 180, 1e-6f);
   EXPECT_EQ(scene.cameras[0].filter, PixelFilter::tent);
   EXPECT_EQ(scene.maxDepth, 65);
-  EXPECT_EQ(messages(scene).size(), 3u);  // <mode>, sampleNum, delta
+  EXPECT_EQ(messages(scene).size(), 4u);  // <mode>, sampleNum, delta; nothing is twosided
+  // Its back wall faces away: shaded from both sides as in the program that wrote it.
+  for (const Instance& i : scene.instances) {
+    EXPECT_EQ(scene[i.material].type, MaterialType::twoSided) << i.name;
+  }
 }
 
 TEST_F(MitsubaData, LivingRoom) {
@@ -78,7 +82,7 @@ TEST_F(MitsubaData, VeachBidir) {
   if (!fs::exists(scenes("veach-bidir"))) GTEST_SKIP();
   const Scene scene = read(scenes("veach-bidir"));
   EXPECT_EQ(scene.emitters.size(), 2u);
-  EXPECT_EQ(messages(scene).size(), 4u);  // <mode>, <hide>, sampleNum, delta
+  EXPECT_EQ(messages(scene).size(), 5u);  // <mode>, <hide>, sampleNum, delta; nothing is twosided
 }
 
 TEST_F(MitsubaData, TireFairylights) {

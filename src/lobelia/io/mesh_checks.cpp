@@ -63,17 +63,6 @@ size_t normalizeNormals(Mesh& mesh) {
   return missing.size();
 }
 
-size_t countDegenerate(const Mesh& mesh) {
-  size_t count = 0;
-  for (const Vec3u& t : mesh.triangles) {
-    const Vec3f a = mesh.positions[t.x];
-    const Vec3f e1 = mesh.positions[t.y] - a, e2 = mesh.positions[t.z] - a;
-    const Vec3d n = cross(Vec3d(e1.x, e1.y, e1.z), Vec3d(e2.x, e2.y, e2.z));
-    count += !(lengthSquared(n) > 0);
-  }
-  return count;
-}
-
 }  // namespace
 
 void addWarning(std::vector<Finding>& findings, const Location& where, const std::string& message) {
@@ -97,10 +86,6 @@ void finishMesh(Mesh& mesh, const std::string& file, const MeshOptions& options,
                fmt::format("{} of {} vertex normals are missing or zero; computed from the faces",
                            n, mesh.normals.size()));
   }
-  if (const size_t n = countDegenerate(mesh); n > 0)
-    addWarning(
-        findings, where,
-        fmt::format("{} of {} triangles are degenerate (zero area)", n, mesh.triangles.size()));
 }
 
 }  // namespace lobelia::io
