@@ -44,6 +44,10 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
                 const std::string& commandLine) {
   requireMethod(options.lights, options.gather);
   requireOutputs(options);
+  if (options.passes > 1 && !(options.saveLights.empty() && options.loadLights.empty())) {
+    throw UsageError(
+        "--passes draws new lights for every pass; leave out --save-lights, --load-lights");
+  }
   const ThreadLimit threads(global.threads);
   Console console(global.verbosity());
   Context context(&console);
@@ -65,7 +69,10 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
   if (options.lights == "path" || options.lights == "light") {
     const PathSettings settings = pathSettings(scene, camera, pixels, maxDepth, options);
     const auto method = options.lights == "path" ? renderPath : renderLight;
-    method(tracer, emitters, camera, settings, film, context);
+    {
+      const StageTimer timer(context, "trace");
+      method(tracer, emitters, camera, settings, film, context);
+    }
     composePicture(film, options);
   } else {
     if (!pixels.pixels.empty()) {

@@ -45,6 +45,10 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
   c.add_option("--num-lights", o.lightCount, "Virtual lights aimed at")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 31))
       ->capture_default_str();
+  c.add_option("--passes", o.passes,
+               "Independent sets of lights; the eye samples are shared out among them")
+      ->check(CLI::Range(1, 1 << 24))
+      ->capture_default_str();
   c.add_option("--env-lights", o.environmentLights,
                "With --direct lights: directional lights per environment")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 24))

@@ -29,6 +29,7 @@ struct RenderOptions {
   int spp = 0;  // 0: the method's default
   std::string size, crop, camera;
   uint64_t pixels = 0;
+  int passes = 1;    // independent light sets
   int maxDepth = 0;  // 0: the scene's
   uint64_t lightCount = 2048, environmentLights = 1024;
   std::string direct = "nee";

@@ -60,9 +60,9 @@ float clampValue(const RenderOptions& options, float sceneRadius) {
 }
 
 VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
-                           const RenderOptions& options, Context& context) {
-  const StageTimer timer(context, "lights");
+                           int set, const RenderOptions& options, Context& context) {
   if (!options.loadLights.empty()) {
+    const StageTimer timer(context, "lights");  // as makeLights() books its own seconds
     VirtualLights lights = loadLights(options.loadLights, hash(tracer.scene()));
     if (lights.model != options.lights) {
       throw InputError({options.loadLights, 0, 0},
@@ -73,6 +73,7 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
   }
   LightSettings settings;
   settings.count = options.lightCount;
+  settings.set = static_cast<uint32_t>(set);
   settings.maxDepth = maxDepth;
   settings.specularLimit = options.specularLimit;
   settings.glossy = options.lights != "vpl";
@@ -80,6 +81,10 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
   settings.environmentLights = options.environmentLights;
   VirtualLights lights = makeLights(tracer, emitters, settings, context);
   lights.model = options.lights;
+  if (!options.saveLights.empty()) {
+    lights.sceneHash = hash(tracer.scene());
+    saveLights(options.saveLights, lights);
+  }
   return lights;
 }
 
@@ -188,9 +193,8 @@ VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSample
   gather.maxDepth = maxDepth;
   gather.direct = options.direct == "lights";
   VirtualLightReport report;
-  report.lights = obtainLights(tracer, emitters, maxDepth, options, context);
-  if (!options.saveLights.empty()) saveLights(options.saveLights, report.lights);
-  const LightParts parts = splitLights(report.lights);
+  report.lights = obtainLights(tracer, emitters, maxDepth, 0, options, context);
+  LightParts parts = splitLights(report.lights);
 
   EyeSettings eye;
   eye.sampleCount = options.spp > 0 ? options.spp : 4;
@@ -221,15 +225,19 @@ VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSample
     }
   };
 
+  report.sets = std::min(options.passes, eye.sampleCount);
+  int set = 0;
   for (eye.sample = 0; eye.sample < eye.sampleCount && !stop(); ++eye.sample) {
+    const int wanted = static_cast<int>(int64_t{eye.sample} * report.sets / eye.sampleCount);
+    if (wanted != set) {
+      set = wanted;
+      parts = splitLights(obtainLights(tracer, emitters, maxDepth, set, options, context));
+    }
     for (int band = 0; band < bands && !stop(); ++band) {
       const int y0 = band * bandRows, y1 = std::min(y0 + bandRows, film.height);
       BandBackup backup(film, y0, y1);
-      Receivers receivers;
-      {
-        const StageTimer timer(context, "receivers");
-        receivers = traceReceivers(tracer, emitters, camera, eye, y0, y1, film, context);
-      }
+      const Receivers receivers =
+          traceReceivers(tracer, emitters, camera, eye, y0, y1, film, context);
       countReceivers(receivers, report);
       gatherInto(receivers, parts.direct, true);
       if (options.component != "direct") gatherInto(receivers, parts.indirect, false);

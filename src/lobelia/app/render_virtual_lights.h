@@ -9,7 +9,8 @@
 namespace lobelia::app {
 
 struct VirtualLightReport {  // for --stats
-  VirtualLights lights;
+  VirtualLights lights;      // the first set
+  int sets = 1;              // independent sets that were averaged
   uint64_t diffuseReceivers = 0, glossyReceivers = 0, receiverPoints = 0;
 };
 

@@ -61,7 +61,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"glossy", lights.glossy.size()},
                     {"spherical", 0},
                     {"vsgl", 0},
-                    {"particles", lights.particles}};
+                    {"particles", lights.particles},
+                    {"sets", report.sets}};
   json["gather"] = {{"strategy", virtualLights ? options.gather : "none"},
                     {"mode", ""},
                     {"bound", ""},

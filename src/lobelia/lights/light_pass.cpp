@@ -16,6 +16,10 @@
 namespace lobelia {
 namespace {
 
+uint64_t seedOf(const LightSettings& settings, const Context& context) {
+  return settings.set == 0 ? context.seed : hashCombine(context.seed, settings.set);
+}
+
 constexpr uint64_t kPilotStream = 0x70696c6f74ull, kStream = 0x6c6967687473ull;
 constexpr size_t kBatchSize = 512;
 constexpr uint64_t kMaxParticles = 0xffffffffull;  // Sampler's indices
@@ -50,7 +54,7 @@ uint64_t chooseParticleCount(const Tracer& tracer, const EmitterSampler& emitter
                              const LightSettings& settings, Context& context) {
   constexpr uint64_t kMaxPilot = 1u << 18;
   constexpr size_t kEnough = 256;
-  const ParticleWalk walk(tracer, emitters, settings, context.seed, kPilotStream, 1.f);
+  const ParticleWalk walk(tracer, emitters, settings, seedOf(settings, context), kPilotStream, 1.f);
   uint64_t pilot = std::clamp<uint64_t>(settings.count / 16, 1024, 16384);
   for (;; pilot *= 4) {
     const size_t lights = lightCount(traceParticles(walk, pilot, context, false));
@@ -139,16 +143,15 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   const StageTimer timer(context, "lights");
   VirtualLights lights;
   lights.model = settings.glossy ? "glossy" : "vpl";
-  lights.sceneHash = hash(emitters.scene());
-  lights.seed = context.seed;
-  if (settings.directAsLights) addEmitters(emitters, settings, context.seed, &lights);
+  lights.seed = seedOf(settings, context);
+  if (settings.directAsLights) addEmitters(emitters, settings, lights.seed, &lights);
   const int lastDepth = settings.maxDepth < 0 ? kMaxLightDepth : settings.maxDepth - 2;
   if (emitters.empty() || settings.count == 0 || lastDepth < (settings.directAsLights ? 0 : 1))
     return lights;
 
   const uint64_t particles = chooseParticleCount(tracer, emitters, settings, context);
   const float scale = static_cast<float>(1.0 / static_cast<double>(particles));
-  const ParticleWalk walk(tracer, emitters, settings, context.seed, kStream, scale);
+  const ParticleWalk walk(tracer, emitters, settings, lights.seed, kStream, scale);
   collect(traceParticles(walk, particles, context, true), &lights, context);
   lights.particles = particles;
   context.statistics.addCount("light_particles", particles);

@@ -8,6 +8,7 @@ namespace lobelia {
 
 struct LightSettings {
   size_t count = 4096;  // lights aimed at; particles are traced until about that many
+  uint32_t set = 0;     // which of many independent sets of lights
   int maxDepth = -1;    // of whole paths: lights reach depth maxDepth - 2
   float specularLimit = 0.08f;
   bool glossy = true;           // false: diffuse lights only (--lights vpl)
@@ -15,7 +16,7 @@ struct LightSettings {
   // Directional lights for environments (--env-lights), with directAsLights only: without it their
   // direct light is sampled at the receivers. 0: as many as give a good image.
   size_t environmentLights = 0;
-  int gaussiansPerLobe = 9;    // of the expansion of a BSDF (bsdf/gaussians.h); 1: the paper's form
+  int gaussiansPerLobe = 24;   // of the expansion of a BSDF (bsdf/gaussians.h); 1: the paper's form
   bool everyGaussian = false;  // true: all of them become lights; false: one is drawn per vertex
 };
 
