@@ -15,6 +15,12 @@ struct Builtin {
 };
 constexpr Builtin kBuiltins[] = {
     {"cornell", makeCornell},
+    {"study-diffuse", makeStudyDiffuse},
+    {"study-phong", makeStudyPhong},
+    {"study-ggx", makeStudyGgx},
+    {"study-pane", makeStudyPane},
+    {"study-mirror", makeStudyMirror},
+    {"study-room", makeStudyRoom},
 };
 
 }  // namespace

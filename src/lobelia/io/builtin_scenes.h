@@ -6,5 +6,11 @@
 namespace lobelia::io {
 
 Scene makeCornell(float detail);
+Scene makeStudyDiffuse(float detail);
+Scene makeStudyPhong(float detail);
+Scene makeStudyGgx(float detail);
+Scene makeStudyPane(float detail);
+Scene makeStudyMirror(float detail);
+Scene makeStudyRoom(float detail);
 
 }  // namespace lobelia::io
