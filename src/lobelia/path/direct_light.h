@@ -46,13 +46,14 @@ template <class Rays>
 Rgb sampleDirectLight(const Rays& tracer, const EmitterSampler& emitters, const LightQuery& q,
                       const Bsdf& bsdf, Vec3f wo, LobeSet lobes, LobeSet sampled, bool withBsdf,
                       Vec3f u, uint64_t* shadowRays, int count = 1) {
-  const float n = static_cast<float>(count);
+  const float n = static_cast<float>(count), step = 1 / n;
+  const auto fraction = [](float x) { return x - static_cast<float>(static_cast<int>(x)); };
   Rgb sum{};
   for (int i = 0; i < count; ++i) {
     // Places on the emitter: the plastic number's lattice (Roberts 2018), shifted by u.
     const float k = static_cast<float>(i);
     const float y = u.y + k * 0.7548776662f, z = u.z + k * 0.5698402910f;
-    const Vec3f ui{std::min((u.x + k) / n, 0x1.fffffep-1f), y - std::floor(y), z - std::floor(z)};
+    const Vec3f ui{std::min((u.x + k) * step, 0x1.fffffep-1f), fraction(y), fraction(z)};
     const auto light = emitters.sampleDirection(q.p, q.n, ui);
     if (!light) continue;
     Rgb value = evaluate(bsdf, wo, light->wi, lobes) * light->weight;
@@ -63,7 +64,7 @@ Rgb sampleDirectLight(const Rays& tracer, const EmitterSampler& emitters, const 
     ++*shadowRays;
     if (unoccluded(tracer, q, *light)) sum += value;
   }
-  return sum / n;
+  return sum * step;
 }
 
 // MIS weight of emission met by a BSDF sample of density bsdfPdf drawn at q, where `count` emitter

@@ -3,7 +3,8 @@
 //    sampled more than twice as rarely as by uniform selection, whatever the estimates below say;
 //  - the other half goes to the infinite emitters one by one and to the tree over finite ones, half
 //    of that evenly among these and half in proportion to the flux that they send into the scene.
-// A single emitter that is one light (a sphere, a lamp, an environment) has probability one.
+// A single emitter that is one light (a sphere, a lamp, an environment) has probability one; there
+// is no tree over two lights.
 //
 // Densities of all environments are added up and so are their radiances: the direction counts, not
 // which of them it was drawn from.
@@ -17,6 +18,10 @@
 #include "lobelia/path/finite_lights.h"
 
 namespace lobelia {
+
+namespace {
+constexpr size_t kFewLights = 2;  // the triangles of a quad: chosen by area, a tree does not pay
+}
 
 struct EmitterSampler::Impl {
   struct Infinite {
@@ -32,7 +37,8 @@ struct EmitterSampler::Impl {
   const Scene& scene;
   FiniteLights finite;
   EmitterTree tree;
-  AliasTable uniform;  // finite lights, evenly by emitter
+  AliasTable uniform;               // finite lights, evenly by emitter
+  std::vector<float> uniformShare;  // uniformProbability times the table's probabilities
   std::vector<EnvironmentSampler> environments;
   std::vector<Infinite> infinite;
   float treeProbability = 0, uniformProbability = 0;
@@ -92,13 +98,17 @@ struct EmitterSampler::Impl {
     uniform = AliasTable(finite.uniformWeights());
     const double even = 0.5 * static_cast<double>(finite.emitterCount()) / emitters;
     const double byTree = 0.25 / slots + 0.25 * finiteFlux / flux;
-    if (finite.size() > 1) tree = EmitterTree(finite.treeLights());
+    if (finite.size() > kFewLights) tree = EmitterTree(finite.treeLights());
     treeProbability = static_cast<float>(tree.empty() ? 0 : byTree);
     uniformProbability = static_cast<float>(tree.empty() ? even + byTree : even);
+    uniformShare.resize(finite.size());
+    for (size_t i = 0; i < uniformShare.size(); ++i) {
+      uniformShare[i] = uniformProbability * uniform.probability(i);
+    }
   }
 
   float probability(uint32_t light, Vec3f p, Vec3f n) const {
-    const float even = uniformProbability * uniform.probability(light);
+    const float even = uniformShare[light];
     return treeProbability > 0 ? even + treeProbability * tree.probability(p, n, light) : even;
   }
 
@@ -162,29 +172,27 @@ double EmitterSampler::power() const { return impl_->rays.total(); }
 
 std::optional<EmitterDirection> EmitterSampler::sampleDirection(Vec3f p, Vec3f n, Vec3f u) const {
   const Impl& impl = *impl_;
-  // The 24 bits of one number would not tell 10^6 emitters apart: more come from the other two.
-  const Vec2f place{u.y, u.z};
-  const uint64_t low = hashCombine(std::bit_cast<uint32_t>(u.y), std::bit_cast<uint32_t>(u.z));
-  double choice = static_cast<double>(u.x) + static_cast<double>(low >> 40) * 0x1p-48;
+  float choice = u.x;
   for (const Impl::Infinite& light : impl.infinite) {
-    const double probability = static_cast<double>(light.probability);
-    if (choice < probability) return impl.sampleInfinite(light, n, place);
-    choice -= probability;
+    if (choice < light.probability) return impl.sampleInfinite(light, n, {u.y, u.z});
+    choice -= light.probability;
   }
-  const double even = static_cast<double>(impl.uniformProbability);
-  const double byTree = static_cast<double>(impl.treeProbability);
-  if (choice < byTree) {
-    const auto chosen = impl.tree.sample(p, n, choice / byTree);
+  if (choice < impl.treeProbability) {
+    // The 24 bits of one number would not tell 10^6 emitters apart: more come from the other two.
+    const uint64_t low = hashCombine(std::bit_cast<uint32_t>(u.y), std::bit_cast<uint32_t>(u.z));
+    const double fine = static_cast<double>(choice) + static_cast<double>(low >> 40) * 0x1p-48;
+    const auto chosen = impl.tree.sample(
+        p, n, std::min(fine / static_cast<double>(impl.treeProbability), 0x1.fffffffffffffp-1));
     if (!chosen) return std::nullopt;
-    const float probability = impl.treeProbability * chosen->probability +
-                              impl.uniformProbability * impl.uniform.probability(chosen->light);
-    return impl.sampleFinite(chosen->light, probability, p, place);
+    const float probability =
+        impl.treeProbability * chosen->probability + impl.uniformShare[chosen->light];
+    return impl.sampleFinite(chosen->light, probability, p, {u.y, u.z});
   }
-  if (!(even > 0)) return std::nullopt;  // rounding at the very end of [0,1)
-  const double rest = std::clamp((choice - byTree) / even, 0.0, 1.0);
-  const uint32_t light = static_cast<uint32_t>(
-      impl.uniform.sample(std::min(static_cast<float>(rest), 0x1.fffffep-1f)));
-  return impl.sampleFinite(light, impl.probability(light, p, n), p, place);
+  if (!(impl.uniformProbability > 0)) return std::nullopt;  // rounding at the very end of [0,1)
+  const float rest = (choice - impl.treeProbability) / impl.uniformProbability;
+  const uint32_t light =
+      static_cast<uint32_t>(impl.uniform.sample(std::clamp(rest, 0.f, 0x1.fffffep-1f)));
+  return impl.sampleFinite(light, impl.probability(light, p, n), p, {u.y, u.z});
 }
 
 float EmitterSampler::pdfHit(Vec3f p, Vec3f n, const SurfacePoint& hit, Vec3f wi) const {

@@ -11,6 +11,9 @@ namespace {
 constexpr int kBins = 12;
 constexpr int kMaxDepth = 62;          // a path has 63 bits below its leading one
 constexpr size_t kSubtreeSize = 4096;  // ranges up to this size are built by one thread
+// In large trees ranges this small are halved: looking for the best split of each would take most
+// of the time of building.
+constexpr size_t kHalved = 8, kLargeTree = 1024;
 constexpr uint32_t kLeafBit = 0x80000000u;
 
 // Cone of normals with the widest emission around them.
@@ -87,28 +90,6 @@ int16_t quantise(float x) {
 }
 float dequantise(int16_t x) { return static_cast<float>(x) * (1 / 32767.f); }
 
-// Octahedral encoding (Cigolle et al. 2014).
-std::array<int16_t, 2> encodeAxis(Vec3f v) {
-  const float s = 1 / (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
-  float x = v.x * s, y = v.y * s;
-  if (v.z < 0) {
-    const float fx = (1 - std::abs(y)) * std::copysign(1.f, x);
-    y = (1 - std::abs(x)) * std::copysign(1.f, y);
-    x = fx;
-  }
-  return {quantise(x), quantise(y)};
-}
-Vec3f decodeAxis(int16_t qx, int16_t qy) {
-  float x = dequantise(qx), y = dequantise(qy);
-  const float z = 1 - std::abs(x) - std::abs(y);
-  if (z < 0) {
-    const float fx = (1 - std::abs(y)) * std::copysign(1.f, x);
-    y = (1 - std::abs(x)) * std::copysign(1.f, y);
-    x = fx;
-  }
-  return normalize(Vec3f(x, y, z));
-}
-
 // cos(max(0, a - b)) and sin(max(0, a - b)) for angles in [0, pi].
 struct Angle {
   float cosine, sine;
@@ -129,9 +110,10 @@ struct EmitterTree::Builder {
   std::vector<uint64_t>& paths;
   std::vector<uint32_t> order;
 
-  // A range of `order` that becomes the subtree at nodes[node].
+  // A range of `order` that becomes the subtree at nodes[node]; the nodes below it start at
+  // `below`.
   struct Task {
-    size_t begin, end, node;
+    size_t begin, end, node, below;
     uint64_t path;
     int depth;
   };
@@ -150,7 +132,8 @@ struct EmitterTree::Builder {
     if (!(longest > 0)) return half;
     int bestAxis = -1, bestBin = 0;
     float bestCost = 0;
-    for (int axis = 0; axis < 3; ++axis) {
+    const bool halved = count <= kHalved && order.size() > kLargeTree;
+    for (int axis = 0; axis < 3 && !halved; ++axis) {
       if (!(extent[axis] > 0)) continue;
       std::array<Cluster, kBins> bins;
       for (auto i = first; i != last; ++i) {
@@ -194,21 +177,22 @@ struct EmitterTree::Builder {
 
   void store(const Cluster& cluster, uint32_t next, size_t node) {
     Node& out = nodes[node];
-    for (int a = 0; a < 3; ++a) out.lo[a] = cluster.bounds.lo[a], out.hi[a] = cluster.bounds.hi[a];
-    const auto [x, y] = encodeAxis(cluster.cone.axis);
-    out.axisX = x, out.axisY = y;
+    out.centre = cluster.bounds.centre();
+    out.radius2 = 0.25f * lengthSquared(cluster.bounds.extent());
+    for (int a = 0; a < 3; ++a) out.axis[a] = quantise(cluster.cone.axis[a]);
     out.cosThetaO = quantise(cluster.cone.cosO);
+    out.sinThetaO = quantise(std::sqrt(std::max(0.f, 1 - sqr(cluster.cone.cosO))));
     out.cosThetaE = quantise(cluster.cone.cosE);
     out.intensity = cluster.intensity;
     out.next = next;
   }
 
-  // Divides a range; a subtree over m lights takes 2m - 1 nodes, so that places are known before.
+  // Divides a range; m lights take 2m - 2 nodes below their root, so that places are known before.
   std::array<Task, 2> divide(const Task& t) {
     const size_t middle = split(t);
-    const size_t right = t.node + 2 * (middle - t.begin);
-    return {Task{t.begin, middle, t.node + 1, t.path << 1, t.depth + 1},
-            Task{middle, t.end, right, (t.path << 1) | 1, t.depth + 1}};
+    const size_t left = t.below + 2, right = t.below + 2 * (middle - t.begin);
+    return {Task{t.begin, middle, t.below, left, t.path << 1, t.depth + 1},
+            Task{middle, t.end, t.below + 1, right, (t.path << 1) | 1, t.depth + 1}};
   }
 
   Cluster build(const Task& t) {
@@ -223,14 +207,14 @@ struct EmitterTree::Builder {
     const auto [left, right] = divide(t);
     cluster = build(left);
     cluster.add(build(right));
-    store(cluster, static_cast<uint32_t>(right.node), t.node);
+    store(cluster, static_cast<uint32_t>(left.node), t.node);
     return cluster;
   }
 
   // Upper levels one after another, the subtrees below them in parallel, then the upper nodes.
   void buildAll() {
     if (order.empty()) return;
-    std::vector<Task> tasks{{0, order.size(), 0, 1, 0}};
+    std::vector<Task> tasks{{0, order.size(), 0, 1, 1, 0}};
     for (size_t i = 0; i < tasks.size(); ++i) {
       if (tasks[i].end - tasks[i].begin <= kSubtreeSize) continue;
       const auto children = divide(tasks[i]);
@@ -248,7 +232,7 @@ struct EmitterTree::Builder {
       child -= 2;
       clusters[i] = clusters[child];
       clusters[i].add(clusters[child + 1]);
-      store(clusters[i], static_cast<uint32_t>(tasks[child + 1].node), tasks[i].node);
+      store(clusters[i], static_cast<uint32_t>(tasks[child].node), tasks[i].node);
     }
   }
 };
@@ -267,25 +251,24 @@ EmitterTree::EmitterTree(std::span<const TreeLight> lights) {
 // distance, which is not let below the box's radius: inside a cluster nothing is known of where
 // its emitters are.
 float EmitterTree::importance(const Node& node, Vec3f p, Vec3f n) {
-  const Vec3f lo(node.lo[0], node.lo[1], node.lo[2]), hi(node.hi[0], node.hi[1], node.hi[2]);
-  const Vec3f toCentre = (lo + hi) * 0.5f - p;
-  const float radius2 = 0.25f * lengthSquared(hi - lo);
+  const Vec3f toCentre = node.centre - p;
   const float d2 = lengthSquared(toCentre);
-  const float intensity = node.intensity / std::max(std::max(d2, radius2), 1e-30f);
-  if (d2 <= radius2) return intensity;
-  const Vec3f w = toCentre / std::sqrt(d2);
-  const float sinBox2 = radius2 / d2;
+  if (d2 <= node.radius2) return node.intensity / std::max(node.radius2, 1e-30f);
+  const float inverse2 = 1 / d2, inverse = std::sqrt(inverse2);
+  const float sinBox2 = node.radius2 * inverse2;
   const Angle box{std::sqrt(1 - sinBox2), std::sqrt(sinBox2)};
-  float result = intensity;
-  const float cosO = dequantise(node.cosThetaO);
-  if (cosO > -1) {
-    const Angle axis = fromCosine(-dot(decodeAxis(node.axisX, node.axisY), w));
-    const Angle leaving = minus(minus(axis, fromCosine(cosO)), box);
+  float result = node.intensity * inverse2;
+  if (node.cosThetaO > -32767) {
+    const Vec3f axis{dequantise(node.axis[0]), dequantise(node.axis[1]), dequantise(node.axis[2])};
+    const Angle cone{dequantise(node.cosThetaO), dequantise(node.sinThetaO)};
+    const Angle leaving = minus(minus(fromCosine(-dot(axis, toCentre) * inverse), cone), box);
     // A little slack for the quantised cone.
     if (leaving.cosine <= dequantise(node.cosThetaE) - 1e-3f) return 0;
     result *= std::max(leaving.cosine, 1e-3f);
   }
-  if (n != Vec3f{}) result *= std::max(0.f, minus(fromCosine(dot(n, w)), box).cosine);
+  if (n != Vec3f{}) {
+    result *= std::max(0.f, minus(fromCosine(dot(n, toCentre) * inverse), box).cosine);
+  }
   return result;
 }
 
@@ -294,18 +277,19 @@ std::optional<EmitterTree::Choice> EmitterTree::sample(Vec3f p, Vec3f n, double 
   size_t node = 0;
   double probability = 1;
   while (!(nodes_[node].next & kLeafBit)) {
-    const double left = importance(nodes_[node + 1], p, n);
-    const double right = importance(nodes_[nodes_[node].next], p, n);
+    const size_t children = nodes_[node].next;
+    const double left = importance(nodes_[children], p, n);
+    const double right = importance(nodes_[children + 1], p, n);
     if (!(left + right > 0)) return std::nullopt;
     const double share = left / (left + right);
     if (u < share) {
       u = std::min(u / share, 0x1.fffffffffffffp-1);
       probability *= share;
-      node = node + 1;
+      node = children;
     } else {
       u = std::min((u - share) / (1 - share), 0x1.fffffffffffffp-1);
       probability *= 1 - share;
-      node = nodes_[node].next;
+      node = children + 1;
     }
   }
   return Choice{nodes_[node].next & ~kLeafBit, static_cast<float>(probability)};
@@ -317,16 +301,17 @@ float EmitterTree::probability(Vec3f p, Vec3f n, uint32_t light) const {
   size_t node = 0;
   double probability = 1;
   for (int level = static_cast<int>(std::bit_width(path)) - 2; level >= 0; --level) {
-    const double left = importance(nodes_[node + 1], p, n);
-    const double right = importance(nodes_[nodes_[node].next], p, n);
+    const size_t children = nodes_[node].next;
+    const double left = importance(nodes_[children], p, n);
+    const double right = importance(nodes_[children + 1], p, n);
     if (!(left + right > 0)) return 0;
     const double share = left / (left + right);
     if ((path >> level) & 1) {
       probability *= 1 - share;
-      node = nodes_[node].next;
+      node = children + 1;
     } else {
       probability *= share;
-      node = node + 1;
+      node = children;
     }
     if (probability == 0) return 0;
   }
@@ -349,11 +334,11 @@ std::vector<float> EmitterTree::probabilities(Vec3f p, Vec3f n) const {
       result[node.next & ~kLeafBit] = static_cast<float>(entry.probability);
       continue;
     }
-    const double left = importance(nodes_[entry.node + 1], p, n);
-    const double right = importance(nodes_[node.next], p, n);
+    const double left = importance(nodes_[node.next], p, n);
+    const double right = importance(nodes_[node.next + 1], p, n);
     if (!(left + right > 0)) continue;
-    stack.push_back({entry.node + 1, entry.probability * left / (left + right)});
-    stack.push_back({node.next, entry.probability * right / (left + right)});
+    stack.push_back({node.next, entry.probability * left / (left + right)});
+    stack.push_back({node.next + 1, entry.probability * right / (left + right)});
   }
   return result;
 }

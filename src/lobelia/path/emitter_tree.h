@@ -52,20 +52,22 @@ class EmitterTree {
   size_t bytes() const;
 
  private:
+  // A bounding sphere, whose radius is half the box's diagonal, and a cone; fixed point numbers are
+  // in units of 1 / 32767.
   struct Node {
-    float lo[3], hi[3];
-    int16_t axisX, axisY;  // octahedral
-    int16_t cosThetaO, cosThetaE;
+    Vec3f centre;
+    float radius2;
+    int16_t axis[3], cosThetaO, sinThetaO, cosThetaE;
     float intensity;
-    uint32_t next;  // inner: index of the right child (the left one follows); leaf: light
+    uint32_t next;  // inner: index of the left child, which the right one follows; leaf: light
   };
-  static_assert(sizeof(Node) == 40);
+  static_assert(sizeof(Node) == 36);
   struct Builder;
 
   static float importance(const Node& node, Vec3f p, Vec3f n);
   static constexpr uint64_t kAbsent = ~0ull;
 
-  std::vector<Node> nodes_;      // depth first
+  std::vector<Node> nodes_;      // the root first, siblings side by side
   std::vector<uint64_t> paths_;  // per light: below a leading one, a bit per level (1: right)
 };
 

@@ -45,6 +45,7 @@ bool masked(const Scene& scene, const Instance& instance) {
 FiniteLights::FiniteLights(const Scene& scene) : scene_(scene) {
   firstLight_.assign(scene.instances.size(), kNone);
   instanceArea_.assign(scene.instances.size(), 0);
+  plain_.assign(scene.instances.size(), 0);
   std::vector<uint32_t> sphereInstances;
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
@@ -52,11 +53,11 @@ FiniteLights::FiniteLights(const Scene& scene) : scene_(scene) {
     const Mesh& mesh = scene[instance.mesh];
     if (mesh.triangles.empty()) continue;
     ++emitterCount_;
+    plain_[i] = !masked(scene, instance) && !scene[instance.emitter].radiance.texture.valid();
     // Spheres that emit inwards, or with a texture or mask (whose coordinates are the
     // tessellation's), are sampled as the triangles that they are.
     const auto scale = uniformScale(instance.toWorld.to);
-    if (mesh.isUnitSphere && scale && !instance.flipNormals && !masked(scene, instance) &&
-        !scene[instance.emitter].radiance.texture.valid()) {
+    if (mesh.isUnitSphere && scale && !instance.flipNormals && plain_[i]) {
       SphereLight sphere;
       sphere.centre = instance.toWorld.point({});
       sphere.radius = *scale;
@@ -92,9 +93,9 @@ void FiniteLights::addInstance(uint32_t index) {
     light.e2 = instance.toWorld.point(mesh.positions[v.z]) - light.p0;
     light.instance = index;
     light.triangle = static_cast<uint32_t>(t);
-    const float area = 0.5f * length(cross(light.e1, light.e2));
-    if (!(area > 0) || !std::isfinite(area)) return;
-    light.area = area;
+    const float scale = 1 / length(cross(light.e1, light.e2));
+    if (!(scale > 0) || !std::isfinite(scale) || !std::isfinite(1 / scale)) return;
+    light.scale = scale;
     // Which side is outside (winding, mirrored transforms, flipped normals) is surfacePoint()'s.
     Vec3f ng;
     for (const Vec2f b : {Vec2f{0, 0}, Vec2f{1, 0}, Vec2f{0, 1}}) {
@@ -102,11 +103,11 @@ void FiniteLights::addInstance(uint32_t index) {
       ng = at.ng;
       light.error = std::max(light.error, at.error);
     }
-    if (dot(light.normal(), ng) < 0) light.side = -1;
+    if (dot(light.normal(), ng) < 0) light.scale = -scale;
   });
   double area = 0;
   for (size_t t = first; t < triangles_.size(); ++t)
-    area += static_cast<double>(triangles_[t].area);
+    area += static_cast<double>(triangles_[t].area());
   instanceArea_[index] = static_cast<float>(area);
 }
 
@@ -170,8 +171,7 @@ void FiniteLights::addPoint(uint32_t index) {
 Rgb FiniteLights::radiance(const TriangleLight& light, float b1, float b2) const {
   const Instance& instance = scene_.instances[light.instance];
   const ColorParam& value = scene_[instance.emitter].radiance;
-  const bool mask = masked(scene_, instance);
-  if (!value.texture.valid() && !mask) return value.value;
+  if (plain_[light.instance]) return value.value;
   const Mesh& mesh = scene_[instance.mesh];
   TextureContext at;
   at.mesh = &mesh;
@@ -183,7 +183,7 @@ Rgb FiniteLights::radiance(const TriangleLight& light, float b1, float b2) const
     at.uv = mesh.uvs[v.x] * (1 - b1 - b2) + mesh.uvs[v.y] * b1 + mesh.uvs[v.z] * b2;
   }
   const Rgb radiance = evaluate(scene_, value, at);
-  return mask ? radiance * opacity(scene_, instance.material, at) : radiance;
+  return masked(scene_, instance) ? radiance * opacity(scene_, instance.material, at) : radiance;
 }
 
 Rgb FiniteLights::radiance(const SphereLight& light) const {
@@ -207,7 +207,7 @@ std::vector<float> FiniteLights::uniformWeights() const {
   std::vector<float> weights(size(), 1.f);
   for (size_t i = 0; i < triangles_.size(); ++i) {
     const float total = instanceArea_[triangles_[i].instance];
-    weights[i] = total > 0 ? triangles_[i].area / total : 0.f;
+    weights[i] = total > 0 ? triangles_[i].area() / total : 0.f;
   }
   return weights;
 }
@@ -215,7 +215,8 @@ std::vector<float> FiniteLights::uniformWeights() const {
 std::vector<float> FiniteLights::fluxes() const {
   std::vector<float> result(size(), 0.f);
   parallelFor(triangles_.size(), 4096, [&](size_t i) {
-    if (triangles_[i].area > 0) result[i] = kPi * triangles_[i].area * meanRadiance(triangles_[i]);
+    const TriangleLight& light = triangles_[i];
+    if (light.scale != 0) result[i] = kPi * light.area() * meanRadiance(light);
   });
   for (size_t i = 0; i < spheres_.size(); ++i) {
     const float r = spheres_[i].radius;
@@ -238,11 +239,11 @@ std::vector<TreeLight> FiniteLights::treeLights() const {
   std::vector<TreeLight> result(size());
   parallelFor(triangles_.size(), 4096, [&](size_t i) {
     const TriangleLight& light = triangles_[i];
-    if (!(light.area > 0)) return;
+    if (light.scale == 0) return;
     TreeLight& out = result[i];
     for (const Vec3f p : {light.p0, light.p0 + light.e1, light.p0 + light.e2}) out.bounds.add(p);
     out.axis = light.normal();
-    out.intensity = light.area * meanRadiance(light);
+    out.intensity = light.area() * meanRadiance(light);
   });
   for (size_t i = 0; i < spheres_.size(); ++i) {
     TreeLight& out = result[firstSphere() + i];
@@ -316,7 +317,7 @@ std::optional<LightSample> FiniteLights::sample(uint32_t light, Vec3f p, Vec2f u
     if (!(cosine > 0) || !(d2 > 0)) return std::nullopt;
     result.target = offsetOrigin(at, n, triangle.error, -result.wi);
     result.value = radiance(triangle, b.x, b.y);
-    result.pdf = d2 / (cosine * triangle.area);
+    result.pdf = d2 * triangle.inverseArea() / cosine;
     return result;
   }
   if (light < firstPoint()) {
@@ -360,8 +361,8 @@ float FiniteLights::pdf(uint32_t light, Vec3f p, const SurfacePoint& hit, Vec3f 
   if (light < firstSphere()) {
     const TriangleLight& triangle = triangles_[light];
     const float cosine = -dot(hit.ng, wi);
-    if (!(cosine > 0) || !(triangle.area > 0)) return 0;
-    return lengthSquared(hit.p - p) / (cosine * triangle.area);
+    if (!(cosine > 0)) return 0;
+    return lengthSquared(hit.p - p) * triangle.inverseArea() / cosine;
   }
   const SphereLight& sphere = spheres_[light - firstSphere()];
   const Vec3f to = sphere.centre - p;
@@ -382,7 +383,7 @@ EmittedRay FiniteLights::sampleRay(uint32_t light, Vec2f uPosition, Vec2f uDirec
       const Vec2f b = sampleTriangleUniform(uPosition);
       at = triangle.p0 + triangle.e1 * b.x + triangle.e2 * b.y;
       out.ng = triangle.normal();
-      out.power = radiance(triangle, b.x, b.y) * (kPi * triangle.area);
+      out.power = radiance(triangle, b.x, b.y) * (kPi * triangle.area());
     } else {
       const SphereLight& sphere = spheres_[light - firstSphere()];
       out.ng = sampleSphereUniform(uPosition);

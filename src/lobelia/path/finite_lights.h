@@ -12,11 +12,15 @@ namespace lobelia {
 struct TriangleLight {
   Vec3f p0, e1, e2;  // world space
   uint32_t instance = 0, triangle = 0;
-  float area = 0;   // 0: degenerate, never chosen
+  // 1 / |e1 x e2|, negative when e1 x e2 points away from the side that emits; 0: degenerate, never
+  // chosen.
+  float scale = 0;
   float error = 0;  // SurfacePoint::error, the largest of its corners
-  float side = 1;   // -1: e1 x e2 points away from the side that emits
-  Vec3f normal() const { return cross(e1, e2) * (0.5f * side / area); }
+  Vec3f normal() const { return cross(e1, e2) * scale; }
+  float inverseArea() const { return 2 * std::abs(scale); }
+  float area() const { return scale != 0 ? 1 / inverseArea() : 0.f; }
 };
+static_assert(sizeof(TriangleLight) == 52);
 
 struct SphereLight {
   Vec3f centre;
@@ -82,6 +86,7 @@ class FiniteLights {
   std::vector<PointLight> points_;
   std::vector<uint32_t> firstLight_;  // per instance; kNone when it does not emit
   std::vector<float> instanceArea_;
+  std::vector<uint8_t> plain_;  // per instance: radiance is one colour, without a mask
   size_t emitterCount_ = 0;
   static constexpr uint32_t kNone = 0xffffffffu;
 };

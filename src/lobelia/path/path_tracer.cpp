@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr int kSamplesPerPass = 8;
+constexpr size_t kBatch = 32;                       // paths that go side by side
 constexpr int64_t kProgressInterval = 200'000'000;  // nanoseconds
 
 struct PixelSum {
@@ -22,6 +23,11 @@ struct PixelSum {
 };
 struct GuideSum {  // layers that describe the first surface
   float albedo[3] = {}, normal[3] = {}, depth = 0;
+};
+
+struct Place {  // where a path's light goes
+  uint32_t pixel;
+  float weight;
 };
 
 class PathPasses {
@@ -107,27 +113,48 @@ class PathPasses {
     context_.progress("path", std::min(fraction, 1.0));
   }
 
+  // Paths go side by side in batches and are added in order.
   void addSamples(const std::vector<uint32_t>& tile, int first, int last) {
     PathCounts counts;
-    const uint32_t width = static_cast<uint32_t>(film_.width);
+    std::vector<PathState> paths;
+    std::vector<Place> places;
+    paths.reserve(kBatch);
+    places.reserve(kBatch);
+    const auto flush = [&] {
+      walk_.trace(paths, counts);
+      for (size_t i = 0; i < paths.size(); ++i) {
+        add(places[i].pixel, paths[i].result, places[i].weight);
+      }
+      paths.clear();
+      places.clear();
+    };
     for (const uint32_t pixel : tile) {
-      const uint32_t x = static_cast<uint32_t>(film_.x0) + pixel % width;
-      const uint32_t y = static_cast<uint32_t>(film_.y0) + pixel / width;
-      const uint64_t stream = (static_cast<uint64_t>(y) << 32) | x;
       for (int sample = first; sample < last; ++sample) {
-        PathRandom random(context_.seed, stream, static_cast<uint32_t>(sample));
-        float weight;
-        const Vec2f offset =
-            sampleFilter(camera_.filter, camera_.filterRadius, random.next2D(), &weight);
-        const Vec2f position{static_cast<float>(x) + 0.5f + offset.x,
-                             static_cast<float>(y) + 0.5f + offset.y};
-        const Ray ray = generateRay(camera_, position, random.next2D());
-        add(pixel, walk_.trace(ray, random, counts), weight);
+        start(pixel, sample, paths, places);
+        if (paths.size() == kBatch) flush();
       }
     }
+    flush();
     context_.statistics.addCount("path_rays", counts.pathRays);
     context_.statistics.addCount("shadow_rays", counts.shadowRays);
     context_.statistics.addCount("nonfinite", counts.nonFinite);
+  }
+
+  void start(uint32_t pixel, int sample, std::vector<PathState>& paths,
+             std::vector<Place>& places) const {
+    const uint32_t width = static_cast<uint32_t>(film_.width);
+    const uint32_t x = static_cast<uint32_t>(film_.x0) + pixel % width;
+    const uint32_t y = static_cast<uint32_t>(film_.y0) + pixel / width;
+    const uint64_t stream = (static_cast<uint64_t>(y) << 32) | x;
+    PathRandom random(context_.seed, stream, static_cast<uint32_t>(sample));
+    float weight;
+    const Vec2f offset =
+        sampleFilter(camera_.filter, camera_.filterRadius, random.next2D(), &weight);
+    const Vec2f position{static_cast<float>(x) + 0.5f + offset.x,
+                         static_cast<float>(y) + 0.5f + offset.y};
+    const Ray ray = generateRay(camera_, position, random.next2D());
+    paths.emplace_back(ray, random);
+    places.push_back({pixel, weight});
   }
 
   void add(uint32_t pixel, const PathResult& result, float weight) {

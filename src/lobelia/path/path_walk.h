@@ -9,6 +9,9 @@
 //     indirect' = (indirect f + chain f_rough) / p,   chain' = chain f_sharp / p.
 #pragma once
 
+#include <optional>
+#include <span>
+
 #include "lobelia/base/random.h"
 #include "lobelia/path/direct_light.h"
 #include "lobelia/path/path_tracer.h"
@@ -48,16 +51,39 @@ struct PathResult {
   float depth = 0;
 };
 
-// Rays: Tracer, or what answers the same queries (benchmarks record them). trace() is defined in
+// A path on its way: the ray to be traced next and all that goes with it.
+struct PathState {
+  PathState(const Ray& first, const PathRandom& numbers) : ray(first), random(numbers) {}
+  Ray ray;
+  PathRandom random;
+  PathResult result;
+  Rgb chain{1.f}, indirect{};         // throughput up to the ray's start
+  Rgb metDirect{1.f}, metIndirect{};  // factor of emission that the ray meets
+  LightQuery from;                    // where the ray starts, and how it was drawn
+  float pdfFrom = 0, eta = 1;
+  int samplesFrom = 1;
+  bool deltaFrom = true;
+  int depth = 1;  // of the vertex that the ray will find
+  std::optional<Hit> hit;
+};
+
+// Rays: Tracer, or what answers the same queries (benchmarks record them). Members are defined in
 // path_walk-inl.h and compiled for Tracer in path_walk.cpp.
 template <class Rays>
 class PathWalk {
  public:
   PathWalk(const Rays& tracer, const EmitterSampler& emitters, const PathSettings& settings)
       : tracer_(tracer), emitters_(emitters), settings_(settings) {}
-  PathResult trace(Ray ray, PathRandom& random, PathCounts& counts) const;
+  // Follows the paths to their ends, side by side: while some wait for the memory of the triangle
+  // that they hit, others are traced and shaded. Each path is a function of its state alone.
+  void trace(std::span<PathState> paths, PathCounts& counts) const;
 
  private:
+  void prefetch(const Hit& hit) const;
+  bool advance(PathState& path, PathCounts& counts) const;  // false: the path has ended
+  void meet(PathState& path, Rgb radiance, const SurfacePoint* hit) const;
+  void finish(PathResult& result, PathCounts& counts) const;
+
   const Rays& tracer_;
   const EmitterSampler& emitters_;
   const PathSettings& settings_;
