@@ -1,0 +1,118 @@
+#include "lobelia/app/bench.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <span>
+
+#include "lobelia/app/bench_studies.h"
+#include "lobelia/app/frame_setup.h"
+#include "lobelia/app/signals.h"
+#include "lobelia/base/parallel.h"
+#include "lobelia/store/store.h"
+
+namespace lobelia::app {
+namespace {
+
+struct Study {
+  const char* name;
+  const char* summary;
+  std::vector<BenchTable> (*run)(const BenchOptions&, Context&);
+};
+constexpr Study kStudies[] = {
+    {"rates", "rays per second: bare, of the gather, of the path tracer", benchRates},
+    {"clamp", "energy that clamping loses, against the path tracer", benchClamp},
+    {"convergence", "mean of glossy virtual lights against the path tracer", benchConvergence},
+};
+
+std::vector<std::string> studyNames() {
+  std::vector<std::string> names;
+  for (const Study& study : kStudies) names.emplace_back(study.name);
+  return names;
+}
+
+const Study& findStudy(const std::string& name) {
+  for (const Study& study : kStudies)
+    if (study.name == name) return study;
+  std::string known;
+  for (const Study& study : kStudies)
+    known += fmt::format("\n  {:<12} {}", study.name, study.summary);
+  throw UsageError(fmt::format("there is no bench '{}'{}; there are{}", name,
+                               suggestion(name, studyNames()), known));
+}
+
+// Shows a study's own progress, not that of every small picture in it.
+class StudyListener : public Listener {
+ public:
+  explicit StudyListener(Console& console) : console_(console) {}
+  void message(Severity severity, std::string_view text) override {
+    console_.message(severity, text);
+  }
+  void progress(std::string_view stage, double fraction) override {
+    if (stage.starts_with(kBenchStage))
+      console_.progress(stage.substr(kBenchStage.size()), fraction);
+  }
+
+ private:
+  Console& console_;
+};
+
+}  // namespace
+
+void addBenchOptions(CLI::App& c, BenchOptions& o) {
+  std::string names;
+  for (const Study& study : kStudies) {
+    names += fmt::format("{}{} ({})", names.empty() ? "" : "; ", study.name, study.summary);
+  }
+  c.add_option("name", o.name, names)->required();
+  c.add_option("--scene", o.scene.scene,
+               "Run the study on this scene file or built-in scene instead of its own");
+  c.add_option("--json", o.json, "Write the tables as JSON");
+  c.add_option("-D,--define", o.scene.definitions, "name=value for a scene's $name")
+      ->allow_extra_args(false);
+  c.add_option("--environment", o.scene.environment,
+               "Equirectangular HDR image that lights the scene");
+  c.add_flag("--strict", o.scene.strict, "Warnings about the scene are errors");
+  c.add_option("--detail", o.scene.detail, "Tessellation of built-in scenes")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
+  c.add_option("--camera", o.camera, "Camera by name or index (from 0)");
+  c.add_option("--size", o.size, "WxH in pixels");
+  c.add_option("--pixels", o.pixels, "clamp, convergence: pixels compared, spread over the image")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 32));
+  c.add_option("--max-depth", o.maxDepth, "As for render; default: the scene's, else unlimited")
+      ->check(CLI::Range(1, 1 << 20));
+  c.add_option("--num-lights", o.lightCount,
+               "Virtual lights in a set (convergence: in the largest set)")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 31));
+  c.add_option("--spp", o.spp, "Samples per pixel of the path tracer")
+      ->check(CLI::Range(1, 1 << 24));
+  c.add_option("--sets", o.sets,
+               "clamp, convergence: independent sets of lights (of the largest size); rates: turns")
+      ->check(CLI::Range(2, 1 << 20));
+  c.add_option("--seed", o.seed, "Seed of all randomness")->capture_default_str();
+}
+
+ExitCode bench(const BenchOptions& options, const GlobalOptions& global,
+               const std::string& commandLine) {
+  const Study& study = findStudy(options.name);
+  if (!options.json.empty()) requireWritable(options.json);
+  const ThreadLimit threads(global.threads);
+  Console console(global.verbosity());
+  StudyListener listener(console);
+  Context context(&listener);
+  context.seed = options.seed;
+  const SignalGuard signals(context);
+  BenchRun run{options.name, commandLine, options.seed, study.run(options, context)};
+  for (size_t i = 0; i < run.tables.size(); ++i)
+    fmt::print("{}{}", i > 0 ? "\n" : "", markdown(run.tables[i]));
+  std::fflush(stdout);
+  if (!options.json.empty()) {
+    const std::string text = json(run);
+    store::writeFileAtomically(options.json, std::as_bytes(std::span<const char>(text)));
+  }
+  return signalExitCode();
+}
+
+}  // namespace lobelia::app

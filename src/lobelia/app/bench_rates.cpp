@@ -1,0 +1,367 @@
+// Rays per second. Bare Embree in three patterns; the gather and the path tracer against bare loops
+// over the same rays. What is compared is measured in turns and the median of the turns' ratios is
+// given, as other programs on a machine come and go; ratios of processor time beside those of the
+// clock, which they disturb less.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <ctime>
+#include <memory>
+
+#include "lobelia/app/bench_rays.h"
+#include "lobelia/app/bench_studies.h"
+#include "lobelia/app/frame_setup.h"
+#include "lobelia/app/load_scene.h"
+#include "lobelia/base/parallel.h"
+#include "lobelia/gather/gather.h"
+#include "lobelia/io/closed_room.h"
+#include "lobelia/lights/light_pass.h"
+
+namespace lobelia::app {
+namespace {
+
+constexpr size_t kReceivers = 15360, kLights = 1024, kPackets = 1 << 15;
+constexpr int kTurns = 5, kSpp = 4;
+
+// Seconds by the clock, and of processor per thread.
+struct Seconds {
+  double clock = 0, processor = 0;
+};
+Seconds now() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  const double processor = static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  return {1e-9 * static_cast<double>(nanosecondsNow()), processor / threadCount()};
+}
+template <class F>
+Seconds timed(const F& f) {
+  const Seconds start = now();
+  f();
+  const Seconds end = now();
+  return {end.clock - start.clock, end.processor - start.processor};
+}
+
+struct Measured {
+  double rays = 0, visible = 0;
+  Seconds seconds;
+  double rate() const { return rays / seconds.clock; }
+  double processorRate() const { return rays / seconds.processor; }
+};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+// A scene with what sees and lights it; or one of the kinds of the closed room.
+class RateScene {
+ public:
+  RateScene(Scene scene, const BenchOptions& options, Context& context)
+      : scene_(std::move(scene)), tracer_(scene_, context), emitters_(scene_, tracer_.bounds()) {
+    RenderOptions render;
+    render.size = options.size;
+    render.camera = options.camera;
+    camera_ = chooseCamera(scene_, render);
+    maxDepth_ = options.maxDepth > 0 ? options.maxDepth : scene_.maxDepth;
+  }
+  const Scene& scene() const { return scene_; }
+  const Tracer& tracer() const { return tracer_; }
+  const EmitterSampler& emitters() const { return emitters_; }
+  const Camera& camera() const { return camera_; }
+  int maxDepth() const { return maxDepth_; }
+
+  Receivers receivers(Context& context) const {
+    RenderOptions render;
+    Film film = makeFilm(camera_, render);
+    EyeSettings eye;
+    eye.maxDepth = maxDepth_;
+    eye.directSamples = 0;
+    return spreadReceivers(
+        traceReceivers(tracer_, emitters_, camera_, eye, 0, film.height, film, context),
+        kReceivers);
+  }
+  VirtualLights lights(size_t count, Context& context) const {
+    LightSettings settings;
+    settings.count = count;
+    settings.maxDepth = maxDepth_;
+    return makeLights(tracer_, emitters_, settings, context);
+  }
+
+ private:
+  Scene scene_;
+  Tracer tracer_;
+  EmitterSampler emitters_;
+  Camera camera_;
+  int maxDepth_;
+};
+
+Measured traceAll(const BareRays& bare, const Packets& packets, bool coherent) {
+  constexpr size_t kGrain = 64;
+  std::atomic<uint64_t> visible{0};
+  Measured result;
+  result.seconds = timed([&] {
+    parallelRanges(packets.size(), kGrain, [&](size_t begin, size_t end) {
+      visible += bare.visible(std::span(packets).subspan(begin, end - begin), coherent);
+    });
+  });
+  result.rays = static_cast<double>(packets.size() * ShadowPacket::kSize);
+  result.visible = static_cast<double>(visible);
+  return result;
+}
+
+// Builds the packets of some lights at a time (memory), times only their tracing.
+Measured traceGatherRays(const BareRays& bare, const Receivers& receivers,
+                         const std::vector<PointNormal>& lights) {
+  constexpr size_t kTile = 256, kSome = 128;
+  const size_t count = receivers.points.size();
+  std::vector<Packets> tiles((count + kTile - 1) / kTile);
+  std::vector<uint64_t> visible(tiles.size());
+  Measured result;
+  for (size_t first = 0; first < lights.size(); first += kSome) {
+    const std::span some(lights.data() + first, std::min(kSome, lights.size() - first));
+    parallelFor(tiles.size(), 1, [&](size_t t) {
+      tiles[t] = tileToLights(
+          std::span(receivers.points.data() + t * kTile, std::min(kTile, count - t * kTile)), some);
+    });
+    const Seconds seconds = timed([&] {
+      parallelFor(tiles.size(), 1, [&](size_t t) { visible[t] += bare.visible(tiles[t], true); });
+    });
+    result.seconds.clock += seconds.clock, result.seconds.processor += seconds.processor;
+    for (const Packets& packets : tiles)
+      result.rays += static_cast<double>(packets.size() * ShadowPacket::kSize);
+  }
+  for (const uint64_t n : visible) result.visible += static_cast<double>(n);
+  return result;
+}
+
+Measured traceGather(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,
+                     Context& context) {
+  std::vector<Rgb> radiance(receivers.points.size());
+  const uint64_t before = context.statistics.count("shadow_rays");
+  Measured result;
+  result.seconds = timed([&] { gatherAll(tracer, receivers, lights, {}, radiance, context); });
+  result.rays = static_cast<double>(context.statistics.count("shadow_rays") - before);
+  return result;
+}
+
+// The light that most receivers see, of some: the best case of a tile-order pattern.
+PointNormal bestSeen(const BareRays& bare, const Receivers& receivers,
+                     const std::vector<PointNormal>& lights) {
+  PointNormal best = lights.front();
+  double most = -1;
+  for (size_t i = 0; i < std::min<size_t>(16, lights.size()); ++i) {
+    const double visible = traceGatherRays(bare, receivers, {lights[i]}).visible;
+    if (visible > most) most = visible, best = lights[i];
+  }
+  return best;
+}
+
+struct Subject {  // a gather to be timed
+  std::string lightKind, receiverKind;
+  const Receivers* receivers;
+  VirtualLights lights;
+};
+
+BenchTable barePatterns(const BareRays& bare, const Receivers& receivers,
+                        const std::vector<PointNormal>& lights, uint64_t triangles, int turns,
+                        const BenchOptions& options, Context& context) {
+  BenchTable table{"bare",
+                   "Bare Embree, shadow rays in packets of 16",
+                   {{"pattern", "pattern"},
+                    {"mrays_per_second", "million rays/s", "{:.1f}"},
+                    {"visible", "unblocked", "{:.2f}"}},
+                   {},
+                   {fmt::format("{} triangles, {} threads; medians of {} turns.", triangles,
+                                threadCount(), turns)}};
+  const std::vector<PointNormal> one{bestSeen(bare, receivers, lights)};
+  std::vector<double> rates[3];
+  double visible[3] = {};
+  const Packets patterns[2] = {randomToRandom(lights, kPackets, options.seed + 1),
+                               pointToSorted(lights, kPackets, options.seed + 2)};
+  Packets tiles = tileToLights(receivers.points, one);
+  while (tiles.size() < kPackets && !tiles.empty())
+    tiles.insert(tiles.end(), tiles.begin(), tiles.end());
+  for (int turn = 0; turn < turns && !context.cancelled(); ++turn) {
+    for (int k = 0; k < 3; ++k) {
+      const Measured m = traceAll(bare, k < 2 ? patterns[k] : tiles, k > 0);
+      rates[k].push_back(m.rate());
+      visible[k] = m.visible / m.rays;
+    }
+  }
+  if (context.cancelled()) return table;
+  const char* names[] = {"random points to random lights", "one point to sorted lights",
+                         "pixels in tile order to one light"};
+  for (int k = 0; k < 3; ++k) table.rows.push_back({names[k], 1e-6 * median(rates[k]), visible[k]});
+  return table;
+}
+
+BenchTable gatherRates(const BareRays& bare, const Tracer& tracer,
+                       const std::vector<Subject>& subjects, int turns, Context& context) {
+  BenchTable table{"gather",
+                   "Brute-force gather, shading included",
+                   {{"lights", "lights"},
+                    {"receivers", "receivers"},
+                    {"gather_mrays_per_second", "gather, million rays/s", "{:.1f}"},
+                    {"bare_mrays_per_second", "bare, the same rays", "{:.1f}"},
+                    {"ratio", "ratio", "{:.2f}"},
+                    {"ratio_processor", "ratio of processor time", "{:.2f}"},
+                    {"shading_share", "shading's share of time", "{:.2f}"}},
+                   {},
+                   {"Bare: the gather's own shadow rays, receivers in tile order to one light "
+                    "after another, traced by Embree alone."}};
+  for (size_t i = 0; i < subjects.size() && !context.cancelled(); ++i) {
+    const Subject& subject = subjects[i];
+    const std::vector<PointNormal> lights = places(subject.lights);
+    if (lights.empty() || subject.receivers->points.empty()) continue;
+    std::vector<double> gatherRates, bareRates, ratios, processorRatios;
+    const double shadeBefore = context.statistics.seconds("shade"),
+                 visibilityBefore = context.statistics.seconds("visibility");
+    for (int turn = 0; turn < turns && !context.cancelled(); ++turn) {
+      context.progress(fmt::format("{}gather", kBenchStage),
+                       (static_cast<double>(i) + static_cast<double>(turn) / turns) /
+                           static_cast<double>(subjects.size()));
+      const Measured b = traceGatherRays(bare, *subject.receivers, lights);
+      const Measured g = traceGather(tracer, *subject.receivers, subject.lights, context);
+      gatherRates.push_back(g.rate()), bareRates.push_back(b.rate());
+      ratios.push_back(g.rate() / b.rate());
+      processorRatios.push_back(g.processorRate() / b.processorRate());
+    }
+    if (context.cancelled()) break;
+    const double shade = context.statistics.seconds("shade") - shadeBefore,
+                 visibility = context.statistics.seconds("visibility") - visibilityBefore;
+    table.rows.push_back({subject.lightKind, subject.receiverKind, 1e-6 * median(gatherRates),
+                          1e-6 * median(bareRates), median(ratios), median(processorRatios),
+                          shade / (shade + visibility)});
+  }
+  return table;
+}
+
+struct PathSubject {
+  std::string name;
+  const RateScene* scene;
+};
+
+BenchTable pathRates(const std::vector<PathSubject>& subjects, int spp, int turns,
+                     const BenchOptions& options, Context& context) {
+  BenchTable table{"path",
+                   "Path tracer",
+                   {{"scene", "scene"},
+                    {"path_mrays_per_second", "path tracer, million rays/s", "{:.2f}"},
+                    {"bare_mrays_per_second", "bare, the same rays", "{:.2f}"},
+                    {"ratio", "ratio", "{:.2f}"},
+                    {"ratio_processor", "ratio of processor time", "{:.2f}"}},
+                   {},
+                   {"Bare: the rays of the same paths, nearest hits and shadow rays, one by one by "
+                    "Embree alone."}};
+  for (size_t i = 0; i < subjects.size() && !context.cancelled(); ++i) {
+    const RateScene& scene = *subjects[i].scene;
+    const BareRays bare(scene.scene(), context);
+    PathSettings settings;
+    settings.spp = spp;
+    settings.maxDepth = scene.maxDepth();
+    Camera camera = scene.camera();
+    if (options.size.empty()) {  // recorded rays fill memory
+      camera.height = std::max(1, 320 * camera.height / camera.width);
+      camera.width = 320;
+    }
+    camera.cropX0 = camera.cropY0 = 0, camera.cropX1 = camera.width, camera.cropY1 = camera.height;
+    const auto tiles = recordPathRays(scene.tracer(), scene.emitters(), camera, settings, 0);
+    double rays = 0;
+    for (const auto& tile : tiles) rays += static_cast<double>(tile.size());
+    std::vector<double> pathRates, bareRates, ratios, processorRatios;
+    for (int turn = 0; turn < turns && !context.cancelled(); ++turn) {
+      context.progress(fmt::format("{}path tracer", kBenchStage),
+                       (static_cast<double>(i) + static_cast<double>(turn) / turns) /
+                           static_cast<double>(subjects.size()));
+      RenderOptions render;
+      Film film = makeFilm(camera, render);
+      const auto counted = [&] {
+        return static_cast<double>(context.statistics.count("path_rays") +
+                                   context.statistics.count("shadow_rays"));
+      };
+      Measured p, b;
+      const double before = counted();
+      p.seconds = timed(
+          [&] { renderPath(scene.tracer(), scene.emitters(), camera, settings, film, context); });
+      p.rays = counted() - before;
+      std::atomic<uint64_t> hits{0};
+      b.seconds = timed(
+          [&] { parallelFor(tiles.size(), 1, [&](size_t t) { hits += bare.hits(tiles[t]); }); });
+      b.rays = rays;
+      pathRates.push_back(p.rate()), bareRates.push_back(b.rate());
+      ratios.push_back(p.rate() / b.rate());
+      processorRatios.push_back(p.processorRate() / b.processorRate());
+    }
+    if (context.cancelled()) break;
+    table.rows.push_back({subjects[i].name, 1e-6 * median(pathRates), 1e-6 * median(bareRates),
+                          median(ratios), median(processorRatios)});
+  }
+  return table;
+}
+
+// Only the lights of one class.
+VirtualLights onlyDiffuse(VirtualLights lights) {
+  lights.glossy.clear(), lights.glossyDepthEnds.clear();
+  return lights;
+}
+VirtualLights onlyGlossy(VirtualLights lights) {
+  lights.diffuse.clear(), lights.diffuseDepthEnds.clear();
+  return lights;
+}
+
+std::unique_ptr<RateScene> room(io::RoomKind kind, const BenchOptions& options, Context& context) {
+  return std::make_unique<RateScene>(io::closedRoom(kind, options.scene.detail), options, context);
+}
+
+}  // namespace
+
+std::vector<BenchTable> benchRates(const BenchOptions& options, Context& context) {
+  const int turns = options.sets > 0 ? options.sets : kTurns,
+            spp = options.spp > 0 ? options.spp : kSpp;
+  const size_t lightCount = options.lightCount > 0 ? options.lightCount : kLights;
+  // The rooms differ in their materials only: lights of one can shine on receivers of another.
+  std::unique_ptr<RateScene> scene, ggx, plastic, mixed;
+  std::vector<Subject> subjects;
+  std::vector<PathSubject> paths;
+  std::vector<Receivers> receivers;
+  receivers.reserve(3);
+  const bool own = !options.scene.scene.empty();
+  if (own) {
+    scene = std::make_unique<RateScene>(loadScene(options.scene, context), options, context);
+    receivers.push_back(scene->receivers(context));
+    const VirtualLights lights = scene->lights(lightCount, context);
+    subjects = {{"diffuse", "the scene's", &receivers[0], onlyDiffuse(lights)},
+                {"glossy", "the scene's", &receivers[0], onlyGlossy(lights)}};
+    paths = {{options.scene.scene, scene.get()}};
+  } else {
+    scene = room(io::RoomKind::diffuse, options, context);
+    ggx = room(io::RoomKind::ggx, options, context);
+    plastic = room(io::RoomKind::plastic, options, context);
+    mixed = room(io::RoomKind::mixed, options, context);
+    for (const RateScene* s : {scene.get(), ggx.get(), plastic.get()})
+      receivers.push_back(s->receivers(context));
+    const VirtualLights diffuse = onlyDiffuse(scene->lights(lightCount, context)),
+                        glossy = onlyGlossy(ggx->lights(lightCount, context));
+    const char* kinds[] = {"diffuse", "GGX metal", "plastic (GGX coat)"};
+    for (const bool glossyLights : {false, true})
+      for (size_t k = 0; k < 3; ++k)
+        subjects.push_back({glossyLights ? "glossy" : "diffuse", kinds[k], &receivers[k],
+                            glossyLights ? glossy : diffuse});
+    paths = {{"closed room, diffuse", scene.get()}, {"closed room, mixed", mixed.get()}};
+  }
+  std::vector<PointNormal> points =
+      places(scene->lights(std::max<size_t>(4096, lightCount), context));
+  std::vector<BenchTable> tables;
+  const BareRays bare(scene->scene(), context);
+  if (!points.empty() && !receivers[0].points.empty())
+    tables.push_back(barePatterns(bare, receivers[0], points, triangleCount(scene->scene()), turns,
+                                  options, context));
+  tables.push_back(gatherRates(bare, scene->tracer(), subjects, turns, context));
+  tables.push_back(pathRates(paths, spp, turns, options, context));
+  return tables;
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,154 @@
+#include "lobelia/app/bench_rays.h"
+
+#include <algorithm>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/base/random.h"
+#include "lobelia/path/path_walk-inl.h"
+
+namespace lobelia::app {
+namespace {
+
+constexpr size_t kLanes = ShadowPacket::kSize;
+
+uint32_t morton(Vec3f unit) {
+  const auto spread = [](float v) {
+    uint32_t x = static_cast<uint32_t>(std::clamp(v * 1024, 0.f, 1023.f));
+    x = (x | x << 16) & 0x030000ffu, x = (x | x << 8) & 0x0300f00fu;
+    x = (x | x << 4) & 0x030c30c3u;
+    return (x | x << 2) & 0x09249249u;
+  };
+  return spread(unit.x) | spread(unit.y) << 1 | spread(unit.z) << 2;
+}
+
+// Answers as Tracer does and keeps what it was asked.
+struct Recorder {
+  const Tracer& tracer;
+  mutable std::vector<TracedRay> rays;
+  std::optional<Hit> intersect(const Ray& ray) const {
+    rays.push_back({ray, false});
+    return tracer.intersect(ray);
+  }
+  bool occluded(const Ray& ray) const {
+    rays.push_back({ray, true});
+    return tracer.occluded(ray);
+  }
+  bool visible(Vec3f a, Vec3f b) const {
+    rays.push_back({{a, b - a, 0, kShadowEnd}, true});
+    return tracer.visible(a, b);
+  }
+};
+
+}  // namespace
+
+std::vector<PointNormal> places(const VirtualLights& lights) {
+  std::vector<PointNormal> result;
+  for (const DiffuseLight& light : lights.diffuse)
+    result.push_back({light.p, decodeOctahedral(light.normal)});
+  for (const GlossyLight& light : lights.glossy) result.push_back({light.p, light.n});
+  return result;
+}
+
+Receivers spreadReceivers(const Receivers& receivers, size_t count) {
+  constexpr size_t kRun = 256;
+  const size_t all = receivers.points.size();
+  if (all <= count) return receivers;
+  const size_t runs = std::max<size_t>(1, count / kRun), stride = all / runs;
+  Receivers result;
+  for (size_t run = 0; run < runs; ++run) {
+    for (size_t i = run * stride; i < std::min(all, run * stride + std::min(kRun, stride)); ++i) {
+      ReceiverPoint point = receivers.points[i];
+      const auto lobe = receivers.lobes.begin() + point.firstLobe;
+      point.firstLobe = static_cast<uint32_t>(result.lobes.size());
+      result.lobes.insert(result.lobes.end(), lobe, lobe + point.lobeCount);
+      result.points.push_back(point);
+    }
+  }
+  return result;
+}
+
+Packets randomToRandom(const std::vector<PointNormal>& places, size_t packets, uint64_t seed) {
+  Rng rng(seed);
+  Packets result(packets);
+  for (ShadowPacket& packet : result) {
+    for (size_t i = 0; i < kLanes; ++i) {
+      const Vec3f a = places[rng.nextUint() % places.size()].p;
+      packet.set(static_cast<int>(i), a, places[rng.nextUint() % places.size()].p);
+    }
+  }
+  return result;
+}
+
+Packets pointToSorted(std::vector<PointNormal> places, size_t packets, uint64_t seed) {
+  Bounds3f box;
+  for (const PointNormal& place : places) box.add(place.p);
+  const Vec3f extent = max(box.extent(), Vec3f(1e-30f));
+  std::sort(places.begin(), places.end(), [&](const PointNormal& a, const PointNormal& b) {
+    return morton((a.p - box.lo) / extent) < morton((b.p - box.lo) / extent);
+  });
+  Rng rng(seed);
+  Packets result(packets);
+  const size_t perPoint = std::max<size_t>(1, places.size() / kLanes);
+  Vec3f from;
+  for (size_t k = 0; k < packets; ++k) {
+    if (k % perPoint == 0) from = places[rng.nextUint() % places.size()].p;
+    for (size_t i = 0; i < kLanes; ++i) {
+      const size_t to = (k % perPoint * kLanes + i) % places.size();
+      result[k].set(static_cast<int>(i), from, places[to].p);
+    }
+  }
+  return result;
+}
+
+Packets tileToLights(std::span<const ReceiverPoint> tile, std::span<const PointNormal> lights) {
+  Packets packets;
+  ShadowPacket packet{};
+  int filled = 0;
+  for (const PointNormal& light : lights) {
+    for (const ReceiverPoint& point : tile) {
+      const Vec3f to = light.p - point.p;
+      if (dot(light.n, to) >= 0 || dot(point.frame.n, to) <= 0) continue;
+      packet.set(filled, offsetOrigin(point.p, point.ng, point.error, to), light.p);
+      packet.tMax[filled] = 1;
+      if (++filled == ShadowPacket::kSize) packets.push_back(packet), filled = 0;
+    }
+  }
+  return packets;
+}
+
+std::vector<std::vector<TracedRay>> recordPathRays(const Tracer& tracer,
+                                                   const EmitterSampler& emitters,
+                                                   const Camera& camera,
+                                                   const PathSettings& settings, uint64_t seed) {
+  constexpr int kTile = 16;
+  constexpr size_t kSideBySide = 32;
+  const int across = (camera.width + kTile - 1) / kTile, down = (camera.height + kTile - 1) / kTile;
+  std::vector<std::vector<TracedRay>> tiles(static_cast<size_t>(across * down));
+  parallelFor(tiles.size(), 1, [&](size_t t) {
+    const Recorder recorder{tracer, {}};
+    const PathWalk<Recorder> walk(recorder, emitters, settings);
+    PathCounts counts;
+    std::vector<PathState> paths;
+    const int x0 = static_cast<int>(t) % across * kTile, y0 = static_cast<int>(t) / across * kTile;
+    for (int y = y0; y < std::min(y0 + kTile, camera.height); ++y) {
+      for (int x = x0; x < std::min(x0 + kTile, camera.width); ++x) {
+        for (int s = 0; s < settings.spp; ++s) {
+          PathRandom random(seed, static_cast<uint64_t>(y * camera.width + x),
+                            static_cast<uint32_t>(s));
+          const Vec2f u = random.next2D();
+          const Vec2f film{static_cast<float>(x) + u.x, static_cast<float>(y) + u.y};
+          const Ray ray = generateRay(camera, film, random.next2D());
+          paths.emplace_back(ray, random);
+        }
+        if (paths.size() < kSideBySide) continue;
+        walk.trace(paths, counts);
+        paths.clear();
+      }
+    }
+    walk.trace(paths, counts);
+    tiles[t] = std::move(recorder.rays);
+  });
+  return tiles;
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,126 @@
+#include "lobelia/app/bench_scene.h"
+
+#include <cmath>
+
+#include "lobelia/app/bench_studies.h"
+#include "lobelia/app/load_scene.h"
+#include "lobelia/app/render_virtual_lights.h"
+#include "lobelia/base/random.h"
+
+namespace lobelia::app {
+namespace {
+
+RenderOptions renderOptions(const BenchOptions& options, const std::string& defaultScene,
+                            uint64_t defaultPixels) {
+  RenderOptions out;
+  out.scene = options.scene;
+  if (out.scene.scene.empty()) out.scene.scene = defaultScene;
+  out.size = options.size;
+  out.camera = options.camera;
+  out.pixels = options.pixels > 0 ? options.pixels : defaultPixels;
+  out.maxDepth = options.maxDepth;
+  out.seed = options.seed;
+  out.component = "indirect";
+  return out;
+}
+
+}  // namespace
+
+Estimate estimate(const std::vector<double>& independent) {
+  const double n = static_cast<double>(independent.size());
+  double sum = 0, squares = 0;
+  for (const double v : independent) sum += v;
+  for (const double v : independent) squares += (v - sum / n) * (v - sum / n);
+  return {sum / n, std::sqrt(squares / (n * (n - 1)))};
+}
+
+Estimate ratio(Estimate a, Estimate b) {
+  const double r = a.mean / b.mean;
+  return {r, std::abs(r) * std::hypot(a.error / a.mean, b.error / b.mean)};
+}
+
+BenchScene::BenchScene(const BenchOptions& options, const std::string& defaultScene,
+                       uint64_t defaultPixels, Context& context)
+    : options_(renderOptions(options, defaultScene, defaultPixels)),
+      context_(context),
+      scene_(loadScene(options_.scene, context)),
+      camera_(chooseCamera(scene_, options_)),
+      pixels_(choosePixels(camera_, options_)),
+      maxDepth_(options_.maxDepth > 0 ? options_.maxDepth : scene_.maxDepth),
+      tracer_(scene_, context),
+      emitters_(scene_, tracer_.bounds()) {
+  name_ = options_.scene.scene;
+}
+
+size_t BenchScene::pixelCount() const {
+  if (!pixels_.pixels.empty()) return pixels_.pixels.size();
+  return static_cast<size_t>(camera_.cropX1 - camera_.cropX0) *
+         static_cast<size_t>(camera_.cropY1 - camera_.cropY0);
+}
+
+Film BenchScene::render(uint64_t seed, const std::function<void(Film&)>& method) {
+  Film film = makeFilm(camera_, options_);
+  context_.seed = hashCombine(options_.seed, seed);
+  method(film);
+  if (!pixels_.pixels.empty()) {
+    film.alpha.assign(film.pixelCount(), 0.f);
+    for (const uint32_t pixel : pixels_.pixels) film.alpha[pixel] = 1;
+  }
+  composePicture(film, options_);
+  return film;
+}
+
+Film BenchScene::pathTraced(int spp, uint64_t seed) {
+  PathSettings settings;
+  settings.spp = spp;
+  settings.maxDepth = maxDepth_;
+  settings.specularLimit = options_.specularLimit;
+  settings.component = Component::indirect;
+  settings.hideEmitters = scene_.hideEmitters;
+  settings.pixels = pixels_;
+  return render(
+      seed, [&](Film& film) { renderPath(tracer_, emitters_, camera_, settings, film, context_); });
+}
+
+Film BenchScene::virtualLights(const std::string& model, const std::string& clamp,
+                               uint64_t lightCount, uint64_t seed) {
+  RenderOptions options = options_;
+  options.lights = model;
+  options.clamp = clamp;
+  options.lightCount = lightCount;
+  options.spp = 1;
+  return render(seed, [&](Film& film) {
+    renderVirtualLights(tracer_, emitters_, camera_, pixels_, maxDepth_, options, film, context_);
+  });
+}
+
+double BenchScene::mean(const Film& film) const {
+  double sum = 0;
+  for (const float v : film.layers.at("").values) sum += static_cast<double>(v);
+  return sum / (3 * static_cast<double>(pixelCount()));
+}
+
+Reference pathReference(BenchScene& scene, int spp, uint64_t seed, Context& context) {
+  constexpr int kRuns = 4;  // of each half
+  Reference reference;
+  std::vector<double> means;
+  for (int i = 0; i < 2 * kRuns && !context.cancelled(); ++i) {
+    context.progress(std::string(kBenchStage) + scene.name() + ", path tracer", i / (2.0 * kRuns));
+    const Film film = scene.pathTraced(std::max(1, spp / (2 * kRuns)),
+                                       hashCombine(seed, static_cast<uint64_t>(i)));
+    means.push_back(scene.mean(film));
+    Film& half = i < kRuns ? reference.first : reference.second;
+    if (i % kRuns == 0) {
+      half = film;
+      for (float& v : half.layers.at("").values) v /= kRuns;
+    } else {
+      const std::vector<float>& values = film.layers.at("").values;
+      std::vector<float>& sum = half.layers.at("").values;
+      for (size_t k = 0; k < sum.size(); ++k) sum[k] += values[k] / kRuns;
+    }
+  }
+  reference.mean = estimate(means);
+  return reference;
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,17 @@
+// The studies behind `lobelia bench`. Each appends its tables; cancelled, those rows it has.
+#pragma once
+
+#include "lobelia/app/bench.h"
+#include "lobelia/app/bench_report.h"
+#include "lobelia/base/context.h"
+
+namespace lobelia::app {
+
+// Prefix of the stages that a study reports its progress by.
+inline constexpr std::string_view kBenchStage = "bench: ";
+
+std::vector<BenchTable> benchRates(const BenchOptions& options, Context& context);
+std::vector<BenchTable> benchClamp(const BenchOptions& options, Context& context);
+std::vector<BenchTable> benchConvergence(const BenchOptions& options, Context& context);
+
+}  // namespace lobelia::app
