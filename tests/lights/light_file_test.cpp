@@ -31,6 +31,9 @@ class LightFile : public ::testing::Test {
     lights.sceneHash = 0x1234567890abcdefull;
     lights.seed = 17;
     lights.particles = 4711;
+    lights.maxDepth = 6;
+    lights.specularLimit = 0.125f;
+    lights.direct = true;
     lights.omni.push_back({{1, 2, 3}, {4, 5, 6}, 7});
     lights.directional.push_back({{0, 1, 0}, {1, 2, 3}});
     Rng random(3);
@@ -70,6 +73,9 @@ TEST_F(LightFile, RoundTrip) {
   EXPECT_EQ(read.sceneHash, lights.sceneHash);
   EXPECT_EQ(read.seed, 17u);
   EXPECT_EQ(read.particles, 4711u);
+  EXPECT_EQ(read.maxDepth, 6);
+  EXPECT_EQ(read.specularLimit, 0.125f);
+  EXPECT_TRUE(read.direct);
   EXPECT_TRUE(sameBytes(read.omni, lights.omni));
   EXPECT_TRUE(sameBytes(read.directional, lights.directional));
   EXPECT_TRUE(sameBytes(read.diffuse, lights.diffuse));
@@ -90,6 +96,42 @@ TEST_F(LightFile, RefusesAnotherScene) {
   const std::string text = message(1);
   EXPECT_NE(text.find("another scene"), std::string::npos) << text;
   EXPECT_NE(text.find("lights.dat"), std::string::npos) << text;
+}
+
+// Lights made in another way would count light twice or lose it, silently.
+TEST_F(LightFile, RefusesOtherSettings) {
+  VirtualLights lights = someLights();
+  Scene scene;
+  scene.emitters.resize(8);
+  LightSettings settings;
+  settings.maxDepth = 6;
+  settings.specularLimit = 0.125f;
+  settings.directAsLights = true;
+  const auto refusal = [&] {
+    try {
+      requireFit("lights.dat", lights, settings, scene);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal(), "");
+  settings.maxDepth = 3, settings.directAsLights = false;  // a part of them is left out
+  EXPECT_EQ(refusal(), "");
+  settings.maxDepth = 7;
+  EXPECT_NE(refusal().find("--max-depth 6"), std::string::npos) << refusal();
+  settings.maxDepth = -1;
+  EXPECT_NE(refusal().find("--max-depth 6"), std::string::npos) << refusal();
+  lights.maxDepth = -1;
+  EXPECT_EQ(refusal(), "");
+  settings.specularLimit = 0.25f;
+  EXPECT_NE(refusal().find("--specular-limit 0.125"), std::string::npos) << refusal();
+  settings.specularLimit = 0.125f;
+  settings.directAsLights = true, lights.direct = false;
+  EXPECT_NE(refusal().find("--direct lights"), std::string::npos) << refusal();
+  lights.direct = true;
+  scene.emitters.resize(7);  // a light of someLights() names emitter 7
+  EXPECT_NE(refusal().find("emitter 7"), std::string::npos) << refusal();
 }
 
 TEST_F(LightFile, RefusesDamagedAndCutFiles) {

@@ -196,6 +196,9 @@ TEST(LightPass, EmittersAsLights) {
   settings.directAsLights = true;
   settings.environmentLights = 32;
   const VirtualLights lights = source.run(settings);
+  EXPECT_TRUE(lights.direct);
+  EXPECT_EQ(lights.maxDepth, 2);
+  EXPECT_EQ(lights.specularLimit, settings.specularLimit);
   ASSERT_EQ(lights.omni.size(), 2u);
   EXPECT_EQ(lights.omni[0].emitter, 0xffffffffu);
   EXPECT_EQ(lights.omni[0].p, Vec3f(0.5f, 0, 0));

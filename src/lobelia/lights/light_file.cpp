@@ -1,6 +1,8 @@
 // Virtual lights on disk (--save-lights, --load-lights), as chunks of a store file. What is read is
 // checked before anything uses it: a checksum proves that the file is what was written, not that
 // what was written makes sense.
+#include <fmt/format.h>
+
 #include <string>
 
 #include "lobelia/base/error.h"
@@ -11,7 +13,14 @@ namespace lobelia {
 namespace {
 
 constexpr const char* kKind = "virtual-lights";
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
+
+// The chunk "settings".
+struct StoredSettings {
+  int32_t maxDepth;
+  float specularLimit;
+  uint32_t direct;
+};
 
 [[noreturn]] void damaged(const std::string& file, const std::string& what) {
   throw InputError({file, 0, 0},
@@ -54,6 +63,9 @@ void saveLights(const std::string& file, const VirtualLights& lights) {
   const std::vector<uint64_t> origin{lights.seed, lights.particles};
   writer.add("model", spanOf(model));
   writer.add("origin", spanOf(origin));
+  const std::vector<StoredSettings> settings{
+      {lights.maxDepth, lights.specularLimit, lights.direct ? 1u : 0u}};
+  writer.add("settings", spanOf(settings));
   writer.add("omni", spanOf(lights.omni));
   writer.add("directional", spanOf(lights.directional));
   writer.add("diffuse", spanOf(lights.diffuse));
@@ -76,6 +88,11 @@ VirtualLights loadLights(const std::string& file, uint64_t sceneHash) {
   if (origin.size() != 2) damaged(file, "the chunk 'origin' should hold seed and particle count");
   lights.seed = origin[0];
   lights.particles = origin[1];
+  const std::vector<StoredSettings> settings = reader.get<StoredSettings>("settings");
+  if (settings.size() != 1) damaged(file, "the chunk 'settings' should hold one record");
+  lights.maxDepth = settings[0].maxDepth;
+  lights.specularLimit = settings[0].specularLimit;
+  lights.direct = settings[0].direct != 0;
   lights.sceneHash = sceneHash;
   lights.omni = reader.get<OmniLight>("omni");
   lights.directional = reader.get<DirectionalLight>("directional");
@@ -87,6 +104,26 @@ VirtualLights loadLights(const std::string& file, uint64_t sceneHash) {
   checkDepthEnds(file, "glossy", lights.glossyDepthEnds, lights.glossy.size());
   checkRecords(file, lights);
   return lights;
+}
+
+void requireFit(const std::string& file, const VirtualLights& lights, const LightSettings& settings,
+                const Scene& scene) {
+  const auto refuse = [&](const std::string& what) { throw InputError({file, 0, 0}, what); };
+  if (lights.specularLimit != settings.specularLimit)
+    refuse(
+        fmt::format("was made with a specular limit of {:g}, not {:g}; use --specular-limit {:g}",
+                    lights.specularLimit, settings.specularLimit, lights.specularLimit));
+  if (settings.directAsLights && !lights.direct)
+    refuse("holds no lights of the emitters themselves; save it with --direct lights");
+  const bool deepEnough =
+      lights.maxDepth < 0 || (settings.maxDepth >= 0 && settings.maxDepth <= lights.maxDepth);
+  if (!deepEnough)
+    refuse(fmt::format("was made for paths of at most {} edges; use --max-depth {} or less",
+                       lights.maxDepth, lights.maxDepth));
+  for (const OmniLight& l : lights.omni)
+    if (l.emitter != 0xffffffffu && l.emitter >= scene.emitters.size())
+      damaged(file, fmt::format("a light names emitter {}; the scene has {}", l.emitter,
+                                scene.emitters.size()));
 }
 
 }  // namespace lobelia

@@ -143,6 +143,9 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   const StageTimer timer(context, "lights");
   VirtualLights lights;
   lights.model = settings.glossy ? "glossy" : "vpl";
+  lights.maxDepth = settings.maxDepth;
+  lights.specularLimit = settings.specularLimit;
+  lights.direct = settings.directAsLights;
   lights.seed = seedOf(settings, context);
   if (settings.directAsLights) addEmitters(emitters, settings, lights.seed, &lights);
   const int lastDepth = settings.maxDepth < 0 ? kMaxLightDepth : settings.maxDepth - 2;
@@ -155,7 +158,7 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   collect(traceParticles(walk, particles, context, true), &lights, context);
   lights.particles = particles;
   context.statistics.addCount("light_particles", particles);
-  if (lights.diffuse.empty() && lights.glossy.empty())
+  if (lights.diffuse.empty() && lights.glossy.empty() && !context.cancelled())
     context.warning("no particle left a virtual light: there is no indirect light to gather");
   context.debug(fmt::format("{} particles left {} diffuse and {} glossy lights", particles,
                             lights.diffuse.size(), lights.glossy.size()));

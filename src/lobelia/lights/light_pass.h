@@ -36,5 +36,11 @@ std::vector<DirectionalLight> environmentLights(const Scene& scene, size_t count
 // (InputError).
 void saveLights(const std::string& file, const VirtualLights& lights);
 VirtualLights loadLights(const std::string& file, uint64_t sceneHash);
+// Throws InputError when lights of a file cannot stand for those that makeLights() would make with
+// these settings: another specular limit (light would be counted twice or lost), lights of emitters
+// or of deep paths missing, emitters that the scene does not have. Number, seed and Gaussians per
+// lobe are the file's affair.
+void requireFit(const std::string& file, const VirtualLights& lights, const LightSettings& settings,
+                const Scene& scene);
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// Virtual light records [P000 section 3; docs/methods.md]. Small, plain, in arrays by class.
+// Virtual light records [P000 section 3]. Small, plain, in arrays by class.
 #pragma once
 
 #include <string>
@@ -52,6 +52,10 @@ struct VirtualLights {
   uint64_t sceneHash = 0;
   uint64_t seed = 0;
   uint64_t particles = 0;  // emitted
+  // How they were made (LightSettings): what a renderer that uses them must agree with.
+  int maxDepth = -1;
+  float specularLimit = 0;
+  bool direct = false;  // emitters themselves are among them
   size_t size() const { return omni.size() + directional.size() + diffuse.size() + glossy.size(); }
 };
 
