@@ -53,6 +53,20 @@ TEST(CommandLine, WrongUsageIsTwo) {
   expectFailure("render cornell -o " + (folder / "no/such/folder.exr"), 2, "folder");
   expectFailure("render cornell -o " + (folder / "a.bmp"), 2, ".exr");
   expectFailure("scene nowhere -o " + (folder / "x"), 2, "cornell");
+  expectFailure("rendr cornell" + out, 2, "did you mean 'render'");
+  for (const char* option : {"--crop", "--stats", "-D"})
+    expectFailure("render cornell " + std::string(option) + " ''" + out, 2, "empty");
+  for (const char* option : {"--specular-limit nan", "--time-limit nan", "--exposure inf"})
+    expectFailure("render cornell " + std::string(option) + out, 2, "finite");
+  expectFailure("render cornell --seed -1" + out, 2, "--seed");
+  expectFailure("render cornell --seed 18446744073709551616" + out, 2, "--seed");
+  expectFailure("render cornell --lights path --save-lights " + (folder / "l") + out, 2,
+                "virtual lights");
+  expectFailure("render cornell --lights path --load-lights " + (folder / "l") + out, 2,
+                "virtual lights");
+  expectFailure("render cornell" + out + out, 2, "twice");
+  expectFailure("render cornell --stats " + (folder / "a.exr") + out, 2, "twice");
+  expectFailure("compare a.exr a.exr --diff " + (folder / "d.exr"), 2, ".png");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
@@ -61,6 +75,7 @@ TEST(CommandLine, BadInputIsThree) {
   const std::string out = " -o " + (folder / "a.exr");
   expectFailure("render " + (folder / "missing.xml") + out, 3, "missing.xml");
   expectFailure("info " + (folder / "missing.xml"), 3, "missing.xml");
+  expectFailure("info cornel", 3, "did you mean 'cornell'");
   test::writeText(folder / "scene.blend", "x");
   expectFailure("render " + (folder / "scene.blend") + out, 3, "scene.blend");
   test::writeText(folder / "cut.xml", "<scene version='3.0.0'>\n<shape type='sphere'>\n");
@@ -88,6 +103,46 @@ TEST(CommandLine, DiskFullIsOneAndLeavesNothing) {
   // /dev is a folder that cannot hold regular files for most users; as root it can.
   EXPECT_TRUE(r.exitCode == 0 || r.exitCode == 1 || r.exitCode == 2) << r.err;
   std::filesystem::remove("/dev/full.exr");
+}
+
+TEST(CommandLine, OutputToAFullDiskIsOne) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "skipped: no /dev/full";
+  EXPECT_EQ(WEXITSTATUS(std::system(LOBELIA_PROGRAM " methods > /dev/full 2> /dev/null")), 1);
+  const TemporaryFolder folder;
+  expectFailure(
+      std::string(kSmall) + "--spp 1 --num-lights 10 --stats /dev/full -o " + (folder / "a.exr"), 1,
+      "/dev/full");
+}
+
+// What a file holds may be anything; a message that quotes it stays short and moves no cursor.
+TEST(CommandLine, MessagesQuoteFilesSafely) {
+  const TemporaryFolder folder;
+  test::writeText(folder / "m.obj", "v " + std::string(1 << 20, 'x') + "\n");
+  test::writeText(folder / "s.xml",
+                  "<scene version='3.0.0'><shape type='obj'><string name='filename' "
+                  "value='m.obj'/></shape></scene>");
+  EXPECT_LT(runProgram("info " + (folder / "s.xml")).err.size(), 4096u);
+  test::writeText(folder / "m.obj", "v \033[2J 0 0\n");
+  expectFailure("info " + (folder / "s.xml"), 3, "m.obj:1");
+}
+
+// Every second is booked once: stages do not add up to more than the whole.
+TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
+  const TemporaryFolder folder;
+  for (const char* method : {"path", "light", "vpl", "glossy"}) {
+    ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
+                         " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
+                  .exitCode,
+              0);
+    const auto seconds = nlohmann::json::parse(test::readText(folder / "s.json"))["seconds"];
+    double sum = 0;
+    for (const auto& [stage, value] : seconds.items()) {
+      if (stage != "total") sum += value.get<double>();
+    }
+    EXPECT_LE(sum, seconds["total"].get<double>() * 1.001) << method << seconds;
+    const bool traces = std::string(method) == "path" || std::string(method) == "light";
+    EXPECT_GT(seconds[traces ? "trace" : "lights"].get<double>(), 0) << method;
+  }
 }
 
 TEST(CommandLine, RenderWritesPicturesAovsStatisticsAndMetadata) {
@@ -207,6 +262,22 @@ TEST(CommandLine, InterruptWritesWhatThereIs) {
     double sum = 0;
     for (size_t i = 0; i < film.pixelCount(); ++i) sum += luminance(film.rgb(i));
     EXPECT_GT(sum, 0);
+  }
+}
+
+// At whatever moment a signal comes: the contract's code, and pictures that are whole if there.
+TEST(CommandLine, InterruptAtAnyTime) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(runProgram("scene cornell --detail 3 --quiet -o " + (folder / "s")).exitCode, 0);
+  for (const char* seconds : {"0.3", "0.45", "0.6", "0.75", "0.9", "1.2"}) {
+    const std::string file = folder / (std::string(seconds) + ".exr");
+    const std::string command = "timeout -s TERM --preserve-status " + std::string(seconds) + " " +
+                                LOBELIA_PROGRAM + " render " + (folder / "s/scene.xml") +
+                                " --size 32x32 --num-lights 100000000 --quiet -o " + file;
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 143) << seconds;
+    if (std::filesystem::exists(file)) {
+      EXPECT_EQ(countNonFinite(io::readFilm(file)), 0u);
+    }
   }
 }
 

@@ -5,8 +5,12 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <new>
 
+#include "lobelia/app/bench.h"
 #include "lobelia/app/commands.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/render.h"
@@ -30,8 +34,9 @@ struct CommandLine {
   CompareOptions compare;
   InfoOptions info;
   ConvertOptions scene, convert;
+  BenchOptions bench;
   CLI::App *renderCommand, *compareCommand, *infoCommand, *methodsCommand, *sceneCommand,
-      *convertCommand;
+      *convertCommand, *benchCommand;
 
   CommandLine() {
     app.set_version_flag("--version", std::string("lobelia ") + kVersion);
@@ -62,7 +67,29 @@ struct CommandLine {
     convertCommand = app.add_subcommand("convert", "Write any readable scene as Mitsuba XML");
     addSceneOptions(*convertCommand, convert.scene);
     convertCommand->add_option("-o,--output", convert.folder, "Folder to write")->required();
-    for (CLI::App* command : app.get_subcommands({})) addGlobalOptions(*command, global);
+    benchCommand = app.add_subcommand("bench", "Regenerate a table of docs/performance.md");
+    addBenchOptions(*benchCommand, bench);
+    for (CLI::App* command : app.get_subcommands({})) {
+      addGlobalOptions(*command, global);
+      refuseEmptyValues(*command);
+    }
+  }
+
+  // CLI11 says of an unknown command only that one is required.
+  void requireKnownCommand(int argc, char** argv) const {
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+    throw UsageError(fmt::format("'{}' is not a command; there are {}{}", argv[1],
+                                 fmt::join(names, ", "), suggestion(argv[1], names)));
+  }
+
+  // What --help of the command in use is called.
+  std::string help() const {
+    const auto used = app.get_subcommands();
+    return used.empty() ? "lobelia --help"
+                        : fmt::format("lobelia {} --help", used.front()->get_name());
   }
 
   ExitCode dispatch(const std::string& text) const {
@@ -79,14 +106,32 @@ struct CommandLine {
       return app::convert(scene, global);
     }
     if (*convertCommand) return app::convert(convert, global);
+    if (*benchCommand) return app::bench(bench, global, text);
     fmt::print("{}", methodTable());
     return ExitCode::done;
   }
 };
 
+// Messages may quote what stands in a file: megabytes, or codes that would move the cursor.
+std::string printable(const std::string& message) {
+  constexpr size_t kLongest = 2000;
+  std::string text = message.substr(0, kLongest);
+  if (message.size() > kLongest) text += " ...";
+  for (char& c : text)
+    if ((c >= 0 && c < ' ') || c == 127) c = c == '\n' ? '\n' : '?';
+  return text;
+}
+
 ExitCode fail(ExitCode code, const std::string& message) {
-  fmt::print(stderr, "error: {}\n", message);
+  fmt::print(stderr, "error: {}\n", printable(message));
   return code;
+}
+
+// What was printed is there only when it could be written: standard output may be a full disk.
+ExitCode flushed(ExitCode code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  return fail(ExitCode::failed,
+              fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }
 
 }  // namespace
@@ -95,13 +140,15 @@ int run(int argc, char** argv) {
   ExitCode code = ExitCode::failed;
   CommandLine line;
   try {
+    line.requireKnownCommand(argc, argv);
     line.app.parse(argc, argv);
-    code = line.dispatch(quoted(argc, argv));
+    code = flushed(line.dispatch(quoted(argc, argv)));
   } catch (const CLI::Success& e) {  // --help, --version
     line.app.exit(e);
     code = ExitCode::done;
   } catch (const CLI::Error& e) {
-    code = fail(ExitCode::usage, std::string(e.what()) + "; `lobelia --help` lists what there is");
+    code =
+        fail(ExitCode::usage, fmt::format("{}; `{}` lists what there is", e.what(), line.help()));
   } catch (const UsageError& e) {
     code = fail(ExitCode::usage, e.what());
   } catch (const InputError& e) {

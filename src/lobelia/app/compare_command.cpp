@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "lobelia/app/commands.h"
@@ -25,7 +25,12 @@ std::optional<Film> readOptional(const std::string& file) {
 }  // namespace
 
 ExitCode compareImages(const CompareOptions& options) {
-  if (!options.diff.empty()) requireWritable(options.diff);
+  if (!options.diff.empty()) {
+    if (std::filesystem::path(options.diff).extension() != ".png") {
+      throw UsageError(fmt::format("--diff {}: the picture is written as .png", options.diff));
+    }
+    requireWritable(options.diff);
+  }
   const Film image = io::readFilm(options.image), reference = io::readFilm(options.reference);
   const std::optional<Film> reference2 = readOptional(options.reference2),
                             mask = readOptional(options.mask);

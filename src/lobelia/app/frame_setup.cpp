@@ -163,8 +163,16 @@ void requireOutputs(const RenderOptions& options) {
     }
     requireWritable(file);
   }
+  std::vector<std::string> files = options.outputs;
   for (const std::string& file : {options.stats, options.saveLights}) {
-    if (!file.empty()) requireWritable(file);
+    if (file.empty()) continue;
+    requireWritable(file);
+    files.push_back(file);
+  }
+  std::sort(files.begin(), files.end());
+  if (const auto twice = std::adjacent_find(files.begin(), files.end()); twice != files.end()) {
+    throw UsageError(
+        fmt::format("{} would be written twice; give each output its own name", *twice));
   }
 }
 

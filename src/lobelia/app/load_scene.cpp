@@ -1,6 +1,7 @@
 #include "lobelia/app/load_scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -29,10 +30,14 @@ io::ReadSettings readSettings(const SceneOptions& options) {
   return settings;
 }
 
+// A file goes before a built-in scene of the same name.
 bool isBuiltin(const std::string& name) {
+  if (std::filesystem::exists(name)) return false;
   const std::vector<std::string> names = io::builtinSceneNames();
-  return !std::filesystem::exists(name) &&
-         std::find(names.begin(), names.end(), name) != names.end();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return true;
+  if (std::filesystem::path(name).has_extension()) return false;
+  throw InputError({}, fmt::format("'{}' is neither a file nor a built-in scene; there are {}{}",
+                                   name, fmt::join(names, ", "), suggestion(name, names)));
 }
 
 void report(const std::vector<Finding>& findings, Context& context) {
@@ -66,6 +71,7 @@ Scene loadScene(const SceneOptions& options, Context& context) {
   } else {
     scene = io::readScene(options.scene, settings, context);
   }
+  if (context.cancelled()) throw Cancelled{};  // and no judgement of half a scene
   for (Finding& finding : validate(scene)) {
     if (finding.where.file.empty()) finding.where.file = scene.file;
     scene.findings.push_back(std::move(finding));

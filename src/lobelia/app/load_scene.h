@@ -8,7 +8,7 @@ namespace lobelia::app {
 
 // Throws InputError for anything that makes the scene unusable (in strict mode: any warning).
 // Findings of reading and of validation stay in Scene::findings; up to ten are reported to the
-// context, the rest counted.
+// context, the rest counted. Throws Cancelled when the context is.
 Scene loadScene(const SceneOptions& options, Context& context);
 
 }  // namespace lobelia::app

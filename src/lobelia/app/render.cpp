@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/methods.h"
@@ -38,23 +40,27 @@ void setMetadata(Film& film, const Scene& scene, const RenderOptions& options,
   film.metadata["lobelia:seconds"] = fmt::format("{:.3f}", seconds);
 }
 
-}  // namespace
+bool usesVirtualLights(const RenderOptions& options) {
+  return options.lights != "path" && options.lights != "light";
+}
 
-ExitCode render(const RenderOptions& options, const GlobalOptions& global,
-                const std::string& commandLine) {
-  requireMethod(options.lights, options.gather);
-  requireOutputs(options);
-  if (options.passes > 1 && !(options.saveLights.empty() && options.loadLights.empty())) {
-    throw UsageError(
-        "--passes draws new lights for every pass; leave out --save-lights, --load-lights");
+void requireLightFiles(const RenderOptions& options) {
+  for (const auto& [name, file] : {std::pair{"--save-lights", options.saveLights},
+                                   std::pair{"--load-lights", options.loadLights}}) {
+    if (file.empty()) continue;
+    if (!usesVirtualLights(options)) {
+      throw UsageError(fmt::format("{}: --lights {} has no virtual lights; use vpl or glossy", name,
+                                   options.lights));
+    }
+    if (options.passes > 1) {
+      throw UsageError(fmt::format("--passes draws new lights for every pass; leave out {}", name));
+    }
   }
-  const ThreadLimit threads(global.threads);
-  Console console(global.verbosity());
-  Context context(&console);
-  context.seed = options.seed;
-  const SignalGuard signals(context);
-  const int64_t start = nanosecondsNow();
+}
 
+ExitCode renderUntilCancelled(const RenderOptions& options, const std::string& commandLine,
+                              Context& context) {
+  const int64_t start = nanosecondsNow();
   const Scene scene = loadScene(options.scene, context);
   const Camera camera = chooseCamera(scene, options);
   const PixelSet pixels = choosePixels(camera, options);
@@ -66,7 +72,7 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
 
   VirtualLightReport report;
   const int64_t renderStart = nanosecondsNow();
-  if (options.lights == "path" || options.lights == "light") {
+  if (!usesVirtualLights(options)) {
     const PathSettings settings = pathSettings(scene, camera, pixels, maxDepth, options);
     const auto method = options.lights == "path" ? renderPath : renderLight;
     {
@@ -95,6 +101,26 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
                            static_cast<double>(nanosecondsNow() - renderStart) * 1e-9,
                            context.statistics.seconds("total")));
   return signalExitCode();
+}
+
+}  // namespace
+
+ExitCode render(const RenderOptions& options, const GlobalOptions& global,
+                const std::string& commandLine) {
+  requireMethod(options.lights, options.gather);
+  requireLightFiles(options);
+  requireOutputs(options);
+  const ThreadLimit threads(global.threads);
+  Console console(global.verbosity());
+  Context context(&console);
+  context.seed = options.seed;
+  const SignalGuard signals(context);
+  try {
+    return renderUntilCancelled(options, commandLine, context);
+  } catch (const Cancelled&) {
+    context.warning("stopped while loading the scene: there is no picture yet, none is written");
+    return signalExitCode();
+  }
 }
 
 }  // namespace lobelia::app

@@ -1,8 +1,57 @@
 #include "lobelia/app/render_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 
 namespace lobelia::app {
+namespace {
+
+// CLI::Range lets NaN through and prints limits such as 1e308 in full.
+CLI::Validator finiteNumber(double least, double most = HUGE_VAL, bool leastIncluded = true) {
+  const std::string range =
+      std::isinf(least) && std::isinf(most)
+          ? std::string("a finite number")
+          : fmt::format("a finite number {} {}{}", leastIncluded ? "from" : "above", least,
+                        std::isinf(most) ? "" : fmt::format(" to {}", most));
+  const auto check = [=](const std::string& text) {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) &&
+                      value <= most && (leastIncluded ? value >= least : value > least);
+    return good ? std::string() : fmt::format("'{}' is not {}", text, range);
+  };
+  return CLI::Validator(check, "");
+}
+
+// Conversion to unsigned numbers wraps negative ones and cuts those too large.
+CLI::Validator seedNumber() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        uint64_t value = 0;
+        const char* end = text.data() + text.size();
+        const auto [next, error] = std::from_chars(text.data(), end, value);
+        return error == std::errc() && next == end
+                   ? std::string()
+                   : fmt::format("'{}' is not an integer from 0 to 2^64-1", text);
+      },
+      "");
+}
+
+}  // namespace
+
+void refuseEmptyValues(CLI::App& c) {
+  for (CLI::Option* option : c.get_options()) {
+    if (option->get_expected_min() == 0) continue;  // flags
+    option->check(CLI::Validator(
+        [](const std::string& text) {
+          return text.empty() ? std::string("the value is empty; leave the option out instead")
+                              : "";
+        },
+        ""));
+  }
+}
 
 void addSceneOptions(CLI::App& c, SceneOptions& o) {
   c.add_option("scene", o.scene, "Scene file, or the name of a built-in scene")->required();
@@ -11,7 +60,7 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
   c.add_option("--environment", o.environment, "Equirectangular HDR image that lights the scene");
   c.add_flag("--strict", o.strict, "Warnings about the scene are errors");
   c.add_option("--detail", o.detail, "Tessellation of built-in scenes")
-      ->check(CLI::Range(0.01, 100.0))
+      ->check(finiteNumber(0.01, 100))
       ->capture_default_str();
 }
 
@@ -58,22 +107,25 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->capture_default_str();
   c.add_option("--specular-limit", o.specularLimit,
                "Roughness below which a lobe extends paths instead of gathering")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(finiteNumber(0, 1))
       ->capture_default_str();
   c.add_option("--clamp", o.clamp,
                "Upper limit of geometry term times lobes, or off; default: off (vpl: 10/bounds^2)");
   c.add_option("--component", o.component, "Which light: all, direct or indirect")
       ->check(CLI::IsMember({"all", "direct", "indirect"}))
       ->capture_default_str();
-  c.add_option("--seed", o.seed, "Seed of all randomness")->capture_default_str();
+  c.add_option("--seed", o.seed, "Seed of all randomness")
+      ->check(seedNumber())
+      ->capture_default_str();
   c.add_option("--time-limit", o.timeLimit, "Seconds after which to write what there is")
-      ->check(CLI::PositiveNumber);
+      ->check(finiteNumber(0, HUGE_VAL, false));
   c.add_option("--save-lights", o.saveLights, "Write the virtual lights to a file");
   c.add_option("--load-lights", o.loadLights, "Use the virtual lights of a file");
   c.add_option("--stats", o.stats, "Write statistics as JSON");
   c.add_option("--aov", o.aovs,
                "Layers to add to the EXR: albedo,normal,depth,direct,indirect,specular,variance");
-  c.add_option("--exposure", o.exposure, "Stops added to the PNG's automatic exposure");
+  c.add_option("--exposure", o.exposure, "Stops added to the PNG's automatic exposure")
+      ->check(finiteNumber(-100, 100));
 }
 
 }  // namespace lobelia::app

@@ -53,5 +53,8 @@ struct GlobalOptions {
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 void addRenderOptions(CLI::App& command, RenderOptions& options);
 void addGlobalOptions(CLI::App& command, GlobalOptions& options);
+// Makes an empty value ('--crop ""', perhaps of a script's unset variable) an error for every
+// option and argument of a command; to be called after all of them are added.
+void refuseEmptyValues(CLI::App& command);
 
 }  // namespace lobelia::app

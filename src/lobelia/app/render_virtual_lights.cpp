@@ -81,7 +81,8 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
   settings.environmentLights = options.environmentLights;
   VirtualLights lights = makeLights(tracer, emitters, settings, context);
   lights.model = options.lights;
-  if (!options.saveLights.empty()) {
+  // Lights of a pass that was stopped lack a part of their power: of no use later.
+  if (!options.saveLights.empty() && !context.cancelled()) {
     lights.sceneHash = hash(tracer.scene());
     saveLights(options.saveLights, lights);
   }
@@ -250,6 +251,10 @@ VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSample
                        (eye.sample + static_cast<double>(band + 1) / bands) / eye.sampleCount);
     }
     variance.afterSample(eye.sampleCount);
+  }
+  if (outOfTime() && !context.cancelled() &&
+      std::find(rowSamples.begin(), rowSamples.end(), 0) != rowSamples.end()) {
+    context.warning("--time-limit ended before every pixel had a sample; these have alpha 0");
   }
   finishPartial(film, rowSamples, eye.sampleCount);
   variance.finish(eye.sampleCount);
