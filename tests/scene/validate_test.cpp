@@ -128,6 +128,33 @@ std::vector<Damage> damages() {
        [](Scene& s) { s.materials[1].a = {1}; },
        error,
        {"material 'cloth'", "contains itself"}},
+      {"lobes",
+       [](Scene& s) {  // 1 + 2 + 2 + 4 lobes where all blends mix
+         s.materials.resize(8);
+         s.materials[2].type = MaterialType::principled;
+         s.materials[2].clearcoat = 1.f, s.materials[2].specTrans = 0.5f;
+         s.materials[3].type = MaterialType::plastic;
+         for (const uint32_t i : {4u, 5u, 6u}) s.materials[i].type = MaterialType::blend;
+         s.materials[4].a = {0}, s.materials[4].b = {3};
+         s.materials[5].a = {4}, s.materials[5].b = {3};
+         s.materials[6].a = {5}, s.materials[6].b = {2};
+         s.materials[6].name = "mixture";
+         s.instances[0].material = {6};
+       },
+       warning,
+       {"material 'mixture'", "9 lobes", "8 are kept"}},
+      {"nesting",
+       [](Scene& s) {
+         for (uint32_t i = 2; i < 40; ++i) {
+           Material m;
+           m.type = MaterialType::mask;
+           m.a = {i - 1};
+           s.materials.push_back(m);
+         }
+         s.instances[0].material = {39};
+       },
+       warning,
+       {"material 39", "nested", "32"}},
       {"texture cycle", [](Scene& s) { s.textures[1].a = {1}; }, error, {"texture 1", "itself"}},
       {"bitmap",
        [](Scene& s) { s.textures[0].type = TextureType::bitmap; },

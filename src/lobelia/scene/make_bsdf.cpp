@@ -17,8 +17,6 @@
 namespace lobelia {
 namespace {
 
-constexpr int kMaxNesting = 32;  // a scene's material tree is finite; a broken one may be a cycle
-
 struct Walk {
   const Scene& scene;
   const SurfacePoint& at;

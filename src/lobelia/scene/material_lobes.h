@@ -6,6 +6,10 @@
 
 namespace lobelia {
 
+// Materials that may lie inside each other (of a broken scene, in a cycle); deeper ones are left
+// out, which validate() reports.
+inline constexpr int kMaxNesting = 32;
+
 // Adds the lobes of a material to the BSDF, scaled by `weight`, with sampling shares for directions
 // with this cosine of wo to bsdf.frame.n. twoSided: inside a two-sided material.
 void addLobes(const Scene& scene, const Material& material, const TextureContext& at,

@@ -146,7 +146,9 @@ void checkCameras(const Scene& scene, Findings& findings) {
 std::vector<Finding> validate(const Scene& scene) {
   validation::Findings findings(scene.file);
   const bool textures = validation::checkTextures(scene, findings);
-  validation::checkMaterials(scene, textures, findings);
+  if (validation::checkMaterials(scene, textures, findings)) {
+    validation::checkLobes(scene, findings);
+  }
   validation::checkMeshes(scene, findings);
   validation::checkInstances(scene, findings);
   validation::checkEmitters(scene, findings);

@@ -30,6 +30,7 @@ std::string label(const char* kind, const std::string& name, size_t index);
 // False when a handle inside is out of range: what follows it must then not be looked at.
 bool checkTextures(const Scene& scene, Findings& findings);
 bool checkMaterials(const Scene& scene, bool texturesValid, Findings& findings);
+void checkLobes(const Scene& scene, Findings& findings);  // of materials found valid
 void checkMeshes(const Scene& scene, Findings& findings);
 void checkInstances(const Scene& scene, Findings& findings);
 void checkEmitters(const Scene& scene, Findings& findings);
