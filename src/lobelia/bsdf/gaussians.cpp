@@ -11,13 +11,8 @@
 namespace lobelia {
 namespace {
 
-bool isDiffuse(const Lobe& lobe) {
-  return lobe.type == LobeType::lambert || lobe.type == LobeType::coatedDiffuse ||
-         lobe.type == LobeType::principledDiffuse;
-}
-
 bool isGlossy(const Lobe& lobe) {
-  return !lobe.sharp && !isDelta(lobe) && !isDiffuse(lobe) &&
+  return !lobe.sharp && !isDelta(lobe) && !isDiffuse(lobe.type) &&
          lobe.type != LobeType::diffuseTransmission;
 }
 
@@ -54,7 +49,7 @@ LobeExpansion expand(const Bsdf& bsdf, Vec3f wi, int gaussiansPerLobe) {
   for (int i = 0; i < bsdf.lobeCount; ++i) {
     const Lobe& lobe = bsdf.lobes[i];
     if (lobe.sharp || isDelta(lobe) || !isActive(lobe, local.z)) continue;
-    if (isDiffuse(lobe)) {
+    if (isDiffuse(lobe.type)) {
       out.diffuse += lobeAlbedo(lobe, local.z);
     } else if (lobe.type == LobeType::diffuseTransmission) {
       out.diffuseTransmitted += lobeAlbedo(lobe, local.z);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lobelia/bsdf/kernels-inl.h"
-#include "lobelia/bsdf/lobe.h"
+#include "lobelia/bsdf/lobe_kind.h"
 
 namespace lobelia {
 
@@ -41,15 +41,8 @@ inline Rgb fresnelOf(const Lobe& lobe, float cosine, bool behind) {
       core::fresnelReflectance(lobe.fresnel, parametersOf(lobe), cosine, behind ? 1.f : 0.f));
 }
 
-inline bool isDelta(const Lobe& lobe) {
-  return lobe.type == LobeType::deltaReflection || lobe.type == LobeType::deltaTransmission ||
-         lobe.type == LobeType::null;
-}
-inline bool isTransmission(const Lobe& lobe) {
-  return lobe.type == LobeType::microfacetTransmission ||
-         lobe.type == LobeType::diffuseTransmission || lobe.type == LobeType::deltaTransmission ||
-         lobe.type == LobeType::null;
-}
+inline bool isDelta(const Lobe& lobe) { return isDelta(lobe.type); }
+inline bool isTransmission(const Lobe& lobe) { return isTransmission(lobe.type); }
 // Does the lobe act for a wo on this side at all?
 inline bool isActive(const Lobe& lobe, float cosThetaO) {
   return cosThetaO > 0 || (cosThetaO < 0 && (lobe.twoSided || lobe.interface));

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "lobelia/bsdf/lobe_kind.h"
 #include "lobelia/scene/shading.h"
 
 namespace lobelia::gather {
@@ -38,9 +39,7 @@ Sides litSides(const Receivers& receivers, const ReceiverPoint& point, float cos
     const Lobe& lobe = receivers.lobes[point.firstLobe + i];
     const bool behind = cosWo < 0;
     if (cosWo == 0 || (behind && !lobe.twoSided && !lobe.interface)) continue;
-    const bool transmits =
-        lobe.type == LobeType::microfacetTransmission || lobe.type == LobeType::diffuseTransmission;
-    (transmits == behind ? sides.above : sides.below) = true;
+    (isTransmission(lobe.type) == behind ? sides.above : sides.below) = true;
   }
   return sides;
 }

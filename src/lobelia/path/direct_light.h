@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lobelia/bsdf/bsdf.h"
+#include "lobelia/bsdf/lobe_kind.h"
 #include "lobelia/path/emitter_sampling.h"
 
 namespace lobelia {
@@ -18,8 +19,7 @@ struct LightQuery {
 inline Vec3f lightSide(const Bsdf& bsdf, Vec3f wo) {
   for (int i = 0; i < bsdf.lobeCount; ++i) {
     const LobeType type = bsdf.lobes[i].type;
-    if (type == LobeType::microfacetTransmission || type == LobeType::diffuseTransmission)
-      return {};
+    if (isTransmission(type) && !isDelta(type)) return {};
   }
   return dot(bsdf.frame.n, wo) < 0 ? -bsdf.frame.n : bsdf.frame.n;
 }

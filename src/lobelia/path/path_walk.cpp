@@ -1,14 +1,7 @@
+#include "lobelia/bsdf/lobe_kind.h"
 #include "lobelia/path/path_walk-inl.h"
 
 namespace lobelia {
-namespace {
-
-bool isDelta(LobeType type) {
-  return type == LobeType::deltaReflection || type == LobeType::deltaTransmission ||
-         type == LobeType::null;
-}
-
-}  // namespace
 
 Rgb sharpPart(const Bsdf& bsdf, Vec3f wo, const BsdfSample& s, Transport transport) {
   bool rough = false, sharp = false, sharpDensity = false;

@@ -17,6 +17,8 @@
 // which costs a gather over all lights.
 #include "lobelia/path/receiver_walk.h"
 
+#include "lobelia/bsdf/lobe_kind.h"
+
 namespace lobelia {
 namespace {
 
@@ -25,10 +27,6 @@ namespace {
 constexpr float kRayThreshold = 0.05f;
 constexpr float kReceiverThreshold = 0.25f;
 
-bool isDelta(LobeType type) {
-  return type == LobeType::deltaReflection || type == LobeType::deltaTransmission ||
-         type == LobeType::null;
-}
 bool inSet(const Lobe& lobe, LobeSet set) {
   return (static_cast<int>(set) & static_cast<int>(lobe.sharp ? LobeSet::sharp : LobeSet::rough)) !=
          0;
