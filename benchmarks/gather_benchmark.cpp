@@ -9,40 +9,16 @@
 #include <span>
 
 #include "lit_room.h"
+#include "lobelia/app/bench_rays.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/gather/gather.h"
 
 namespace lobelia {
 namespace {
 
+using app::places;
+using app::PointNormal;
 using benchmark_support::Room;
-
-struct PointNormal {
-  Vec3f p, n;
-};
-
-// The rays of a tile of receivers to a few lights as gatherAll traces them: light by light, facing
-// pairs only, in full packets.
-std::vector<ShadowPacket> packetsOf(std::span<const ReceiverPoint> tile,
-                                    std::span<const PointNormal> lights) {
-  std::vector<ShadowPacket> packets;
-  ShadowPacket packet;
-  int filled = 0;
-  for (const PointNormal& light : lights) {
-    for (const ReceiverPoint& point : tile) {
-      const Vec3f to = light.p - point.p;
-      if (dot(light.n, to) >= 0 || dot(point.frame.n, to) <= 0) continue;
-      const Vec3f o = offsetOrigin(point.p, point.ng, point.error, to);
-      const Vec3f d = light.p - o;
-      packet.ox[filled] = o.x, packet.oy[filled] = o.y, packet.oz[filled] = o.z;
-      packet.dx[filled] = d.x, packet.dy[filled] = d.y, packet.dz[filled] = d.z;
-      packet.tMin[filled] = 0, packet.tMax[filled] = 1;
-      packet.active[filled] = -1;
-      if (++filled == ShadowPacket::kSize) packets.push_back(packet), filled = 0;
-    }
-  }
-  return packets;
-}
 
 struct BareResult {
   double seconds = 0, rays = 0, visible = 0;
@@ -60,7 +36,7 @@ BareResult traceBare(const Tracer& tracer, const Receivers& receivers,
     const std::span some(lights.data() + first, std::min(kLights, lights.size() - first));
     parallelFor(tiles.size(), 1, [&](size_t t) {
       const std::span tile(receivers.points.data() + t * kTile, std::min(kTile, count - t * kTile));
-      tiles[t] = packetsOf(tile, some);
+      tiles[t] = app::tileToLights(tile, some);
     });
     const int64_t start = nanosecondsNow();
     parallelFor(tiles.size(), 1, [&](size_t t) {
@@ -72,14 +48,6 @@ BareResult traceBare(const Tracer& tracer, const Receivers& receivers,
       result.rays += static_cast<double>(packets.size() * ShadowPacket::kSize);
   }
   for (const uint64_t n : visible) result.visible += static_cast<double>(n);
-  return result;
-}
-
-std::vector<PointNormal> places(const VirtualLights& lights) {
-  std::vector<PointNormal> result;
-  for (const DiffuseLight& light : lights.diffuse)
-    result.push_back({light.p, decodeOctahedral(light.normal)});
-  for (const GlossyLight& light : lights.glossy) result.push_back({light.p, light.n});
   return result;
 }
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "closed_room.h"
 #include "lobelia/base/random.h"
 #include "lobelia/base/sampling.h"
+#include "lobelia/io/closed_room.h"
 #include "lobelia/lights/virtual_lights.h"
 #include "lobelia/path/receivers.h"
 #include "lobelia/trace/tracer.h"
@@ -14,7 +14,7 @@ namespace lobelia::benchmark_support {
 
 class Room {
  public:
-  Room() : scene_(benchmark_support::closedRoom()), tracer_(scene_, context_) {}
+  Room() : scene_(io::closedRoom(io::RoomKind::diffuse)), tracer_(scene_, context_) {}
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
 

@@ -12,9 +12,11 @@
 #include <bit>
 #include <functional>
 
-#include "closed_room.h"
+#include "lobelia/app/bench_rays.h"
 #include "lobelia/base/parallel.h"
+#include "lobelia/base/random.h"
 #include "lobelia/base/sampling.h"
+#include "lobelia/io/closed_room.h"
 #include "lobelia/trace/accel.h"
 #include "lobelia/trace/tracer.h"
 
@@ -24,13 +26,10 @@ namespace {
 constexpr int kLanes = ShadowPacket::kSize;
 constexpr size_t kPackets = 1 << 15;
 
-struct Point {
-  Vec3f p;  // already off its surface
-  Vec3f n;
-};
+using Point = app::PointNormal;
 
 struct Room {
-  Scene scene = benchmark_support::closedRoom();
+  Scene scene = io::closedRoom(io::RoomKind::diffuse);
   Context context;
   Tracer tracer{scene, context};
   embree::Accel accel{scene, context};
@@ -70,46 +69,10 @@ const Room& room() {
   return r;
 }
 
-uint32_t morton(Vec3f p) {
-  const auto spread = [](float v) {
-    uint32_t x = static_cast<uint32_t>(std::clamp(v / 6 * 1024, 0.f, 1023.f));
-    x = (x | x << 16) & 0x030000ffu, x = (x | x << 8) & 0x0300f00fu;
-    x = (x | x << 4) & 0x030c30c3u;
-    return (x | x << 2) & 0x09249249u;
-  };
-  return spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2;
-}
-
 std::vector<ShadowPacket> randomToRandom() {
-  const auto& points = room().points;
-  Rng rng(2);
-  std::vector<ShadowPacket> packets(kPackets);
-  const auto any = [&] { return points[rng.nextUint() % points.size()].p; };
-  for (ShadowPacket& packet : packets) {
-    for (int i = 0; i < kLanes; ++i) {
-      const Vec3f a = any();
-      packet.set(i, a, any());
-    }
-  }
-  return packets;
+  return app::randomToRandom(room().points, kPackets, 2);
 }
-
-std::vector<ShadowPacket> pointToSorted() {
-  auto lights = room().points;
-  std::sort(lights.begin(), lights.end(),
-            [](const Point& a, const Point& b) { return morton(a.p) < morton(b.p); });
-  Rng rng(3);
-  std::vector<ShadowPacket> packets(kPackets);
-  const size_t perPoint = lights.size() / kLanes;
-  Vec3f from;
-  for (size_t k = 0; k < kPackets; ++k) {
-    if (k % perPoint == 0) from = lights[rng.nextUint() % lights.size()].p;
-    for (int i = 0; i < kLanes; ++i) {
-      packets[k].set(i, from, lights[k % perPoint * kLanes + static_cast<size_t>(i)].p);
-    }
-  }
-  return packets;
-}
+std::vector<ShadowPacket> pointToSorted() { return app::pointToSorted(room().points, kPackets, 3); }
 
 std::vector<ShadowPacket> tileToLight() {
   const auto& pixels = room().pixels;

@@ -89,7 +89,7 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
   c.add_option("--spp", o.spp, "Samples per pixel of the path tracer")
       ->check(CLI::Range(1, 1 << 24));
   c.add_option("--sets", o.sets,
-               "clamp, convergence: independent sets of lights (of the largest size); rates: turns")
+               "clamp, convergence: independent sets of lights of a size; rates: turns")
       ->check(CLI::Range(2, 1 << 20));
   c.add_option("--seed", o.seed, "Seed of all randomness")->capture_default_str();
 }

@@ -17,11 +17,11 @@ namespace {
 constexpr uint64_t kPixels = 1024, kLights = 4096, kLightStream = 1;
 constexpr int kSpp = 2048, kSets = 16;
 
-// Powers of ten around 1 / radius^2, the unit of what is clamped, and none at all.
+// Steps of the square root of ten around 1 / radius^2, the unit of what is clamped, and none.
 std::vector<double> clampValues(float radius) {
   const double middle = std::round(-2 * std::log10(static_cast<double>(std::max(radius, 1e-6f))));
   std::vector<double> values;
-  for (int i = -2; i <= 4; ++i) values.push_back(std::pow(10, middle + i));
+  for (int i = -4; i <= 4; ++i) values.push_back(std::pow(10, middle + 0.5 * i));
   values.push_back(std::numeric_limits<double>::infinity());
   return values;
 }
@@ -44,18 +44,17 @@ Outcome measure(BenchScene& scene, const Reference& reference, const std::string
   return {ratio(estimate(means), reference.mean), l2};
 }
 
-}  // namespace
-
-std::vector<BenchTable> benchClamp(const BenchOptions& options, Context& context) {
-  BenchScene scene(options, "study-ggx", kPixels, context);
+BenchTable clampCurve(const BenchOptions& options, const std::string& defaultScene,
+                      const std::string& key, Context& context) {
+  BenchScene scene(options, defaultScene, kPixels, context);
   const uint64_t lights = options.lightCount > 0 ? options.lightCount : kLights;
   const int sets = options.sets > 0 ? options.sets : kSets;
   const Reference reference =
       pathReference(scene, options.spp > 0 ? options.spp : kSpp, options.seed, context);
   BenchTable table{
-      "clamp",
+      key,
       fmt::format("Indirect light relative to path tracing, by --clamp: {}", scene.name()),
-      {{"clamp", "clamp", "{:g}"},
+      {{"clamp", "clamp", "{:.3g}"},
        {"vpl_ratio", "vpl, mean ratio", "{:.4f}"},
        {"vpl_error", "±", "{:.4f}"},
        {"vpl_l2", "vpl, l2", "{:.3f}"},
@@ -66,10 +65,10 @@ std::vector<BenchTable> benchClamp(const BenchOptions& options, Context& context
       {}};
   const std::vector<double> clamps = clampValues(scene.radius());
   for (size_t i = 0; i < clamps.size() && !context.cancelled(); ++i) {
-    context.progress(fmt::format("{}clamp", kBenchStage),
+    context.progress(fmt::format("{}{}, clamps", kBenchStage, scene.name()),
                      static_cast<double>(i) / static_cast<double>(clamps.size()));
     const bool off = !std::isfinite(clamps[i]);
-    const std::string clamp = off ? "off" : fmt::format("{:g}", clamps[i]);
+    const std::string clamp = off ? "off" : fmt::format("{:.3g}", clamps[i]);
     const Outcome vpl = measure(scene, reference, "vpl", clamp, lights, sets, context);
     const Outcome glossy = measure(scene, reference, "glossy", clamp, lights, sets, context);
     if (context.cancelled()) break;
@@ -81,7 +80,16 @@ std::vector<BenchTable> benchClamp(const BenchOptions& options, Context& context
       fmt::format("{} pixels, {} sets of {} lights, the same for every clamp; l2 is the "
                   "mean error of one set's picture. Clamp in 1/(scene unit)².",
                   scene.pixelCount(), sets, lights)};
-  return {table};
+  return table;
+}
+
+}  // namespace
+
+std::vector<BenchTable> benchClamp(const BenchOptions& options, Context& context) {
+  if (!options.scene.scene.empty()) return {clampCurve(options, "", "clamp", context)};
+  std::vector<BenchTable> tables{clampCurve(options, "study-phong", "phong", context)};
+  if (!context.cancelled()) tables.push_back(clampCurve(options, "study-ggx", "ggx", context));
+  return tables;
 }
 
 }  // namespace lobelia::app

@@ -165,7 +165,19 @@ struct Subject {  // a gather to be timed
   VirtualLights lights;
 };
 
-BenchTable barePatterns(const BareRays& bare, const Receivers& receivers,
+// Receivers in tile order to the one light that most of them see.
+Packets tileOrder(const BareRays& bare, const Receivers& receivers,
+                  const std::vector<PointNormal>& lights) {
+  Packets packets =
+      tileToLights(receivers.points, std::vector<PointNormal>{bestSeen(bare, receivers, lights)});
+  const size_t once = packets.size();
+  packets.reserve(kPackets + once);
+  while (once > 0 && packets.size() < kPackets)
+    for (size_t i = 0; i < once; ++i) packets.push_back(packets[i]);
+  return packets;
+}
+
+BenchTable barePatterns(const BareRays& bare, const Packets& tiles,
                         const std::vector<PointNormal>& lights, uint64_t triangles, int turns,
                         const BenchOptions& options, Context& context) {
   BenchTable table{"bare",
@@ -176,14 +188,10 @@ BenchTable barePatterns(const BareRays& bare, const Receivers& receivers,
                    {},
                    {fmt::format("{} triangles, {} threads; medians of {} turns.", triangles,
                                 threadCount(), turns)}};
-  const std::vector<PointNormal> one{bestSeen(bare, receivers, lights)};
   std::vector<double> rates[3];
   double visible[3] = {};
   const Packets patterns[2] = {randomToRandom(lights, kPackets, options.seed + 1),
                                pointToSorted(lights, kPackets, options.seed + 2)};
-  Packets tiles = tileToLights(receivers.points, one);
-  while (tiles.size() < kPackets && !tiles.empty())
-    tiles.insert(tiles.end(), tiles.begin(), tiles.end());
   for (int turn = 0; turn < turns && !context.cancelled(); ++turn) {
     for (int k = 0; k < 3; ++k) {
       const Measured m = traceAll(bare, k < 2 ? patterns[k] : tiles, k > 0);
@@ -198,25 +206,30 @@ BenchTable barePatterns(const BareRays& bare, const Receivers& receivers,
   return table;
 }
 
-BenchTable gatherRates(const BareRays& bare, const Tracer& tracer,
+BenchTable gatherRates(const BareRays& bare, const Tracer& tracer, const Packets& tiles,
                        const std::vector<Subject>& subjects, int turns, Context& context) {
-  BenchTable table{"gather",
-                   "Brute-force gather, shading included",
-                   {{"lights", "lights"},
-                    {"receivers", "receivers"},
-                    {"gather_mrays_per_second", "gather, million rays/s", "{:.1f}"},
-                    {"bare_mrays_per_second", "bare, the same rays", "{:.1f}"},
-                    {"ratio", "ratio", "{:.2f}"},
-                    {"ratio_processor", "ratio of processor time", "{:.2f}"},
-                    {"shading_share", "shading's share of time", "{:.2f}"}},
-                   {},
-                   {"Bare: the gather's own shadow rays, receivers in tile order to one light "
-                    "after another, traced by Embree alone."}};
+  BenchTable table{
+      "gather",
+      "Brute-force gather, shading included",
+      {{"lights", "lights"},
+       {"receivers", "receivers"},
+       {"gather_mrays_per_second", "gather, million rays/s", "{:.1f}"},
+       {"bare_mrays_per_second", "bare, the same rays", "{:.1f}"},
+       {"ratio", "ratio", "{:.2f}"},
+       {"ratio_processor", "ratio of processor time", "{:.2f}"},
+       {"one_light_mrays_per_second", "bare, to one light", "{:.1f}"},
+       {"ratio_one_light", "ratio", "{:.2f}"},
+       {"ratio_one_light_processor", "ratio of processor time", "{:.2f}"},
+       {"shading_share", "shading's share of time", "{:.2f}"}},
+      {},
+      {"Bare: the gather's own shadow rays, receivers in tile order to one light "
+       "after another, traced by Embree alone. To one light: the best-seen light only."}};
   for (size_t i = 0; i < subjects.size() && !context.cancelled(); ++i) {
     const Subject& subject = subjects[i];
     const std::vector<PointNormal> lights = places(subject.lights);
     if (lights.empty() || subject.receivers->points.empty()) continue;
-    std::vector<double> gatherRates, bareRates, ratios, processorRatios;
+    std::vector<double> gatherRates, bareRates, ratios, processorRatios, oneRates, oneRatios,
+        oneProcessorRatios;
     const double shadeBefore = context.statistics.seconds("shade"),
                  visibilityBefore = context.statistics.seconds("visibility");
     for (int turn = 0; turn < turns && !context.cancelled(); ++turn) {
@@ -225,6 +238,9 @@ BenchTable gatherRates(const BareRays& bare, const Tracer& tracer,
                            static_cast<double>(subjects.size()));
       const Measured b = traceGatherRays(bare, *subject.receivers, lights);
       const Measured g = traceGather(tracer, *subject.receivers, subject.lights, context);
+      const Measured one = traceAll(bare, tiles, true);
+      oneRates.push_back(one.rate()), oneRatios.push_back(g.rate() / one.rate());
+      oneProcessorRatios.push_back(g.processorRate() / one.processorRate());
       gatherRates.push_back(g.rate()), bareRates.push_back(b.rate());
       ratios.push_back(g.rate() / b.rate());
       processorRatios.push_back(g.processorRate() / b.processorRate());
@@ -234,6 +250,7 @@ BenchTable gatherRates(const BareRays& bare, const Tracer& tracer,
                  visibility = context.statistics.seconds("visibility") - visibilityBefore;
     table.rows.push_back({subject.lightKind, subject.receiverKind, 1e-6 * median(gatherRates),
                           1e-6 * median(bareRates), median(ratios), median(processorRatios),
+                          1e-6 * median(oneRates), median(oneRatios), median(oneProcessorRatios),
                           shade / (shade + visibility)});
   }
   return table;
@@ -356,10 +373,12 @@ std::vector<BenchTable> benchRates(const BenchOptions& options, Context& context
       places(scene->lights(std::max<size_t>(4096, lightCount), context));
   std::vector<BenchTable> tables;
   const BareRays bare(scene->scene(), context);
-  if (!points.empty() && !receivers[0].points.empty())
-    tables.push_back(barePatterns(bare, receivers[0], points, triangleCount(scene->scene()), turns,
-                                  options, context));
-  tables.push_back(gatherRates(bare, scene->tracer(), subjects, turns, context));
+  if (!points.empty() && !receivers[0].points.empty()) {
+    const Packets tiles = tileOrder(bare, receivers[0], points);
+    tables.push_back(
+        barePatterns(bare, tiles, points, triangleCount(scene->scene()), turns, options, context));
+    tables.push_back(gatherRates(bare, scene->tracer(), tiles, subjects, turns, context));
+  }
   tables.push_back(pathRates(paths, spp, turns, options, context));
   return tables;
 }
