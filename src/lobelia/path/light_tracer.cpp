@@ -147,7 +147,8 @@ class ParticlePasses {
       if (wy == 0) continue;
       for (int px = std::max(first(x), 0); px <= x1; ++px) {
         const float wx = evaluateFilter(filter_, radius_, x - 0.5f - static_cast<float>(px));
-        const uint32_t pixel = static_cast<uint32_t>(py * film_.width + px);
+        const uint32_t pixel = static_cast<uint32_t>(py) * static_cast<uint32_t>(film_.width) +
+                               static_cast<uint32_t>(px);
         const float weight = wx * wy * filterNorm_ * filterNorm_;
         if (weight == 0 || !wanted_[pixel]) continue;
         if (direct != Rgb{}) out.push_back({pixel, true, direct * weight});

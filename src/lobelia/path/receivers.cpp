@@ -33,7 +33,9 @@ std::vector<Tile> allTiles(int width, int y0, int y1) {
       Tile tile;
       for (int m = 0; m < kTile * kTile; ++m) {
         const int x = tx + compactBits(m), y = ty + compactBits(m >> 1);
-        if (x < width && y < y1) tile.pixels.push_back(static_cast<uint32_t>(y * width + x));
+        if (x >= width || y >= y1) continue;
+        tile.pixels.push_back(static_cast<uint32_t>(y) * static_cast<uint32_t>(width) +
+                              static_cast<uint32_t>(x));
       }
       tiles.push_back(std::move(tile));
     }
