@@ -61,16 +61,6 @@ float clampValue(const RenderOptions& options, float sceneRadius) {
 
 VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
                            int set, const RenderOptions& options, Context& context) {
-  if (!options.loadLights.empty()) {
-    const StageTimer timer(context, "lights");  // as makeLights() books its own seconds
-    VirtualLights lights = loadLights(options.loadLights, hash(tracer.scene()));
-    if (lights.model != options.lights) {
-      throw InputError({options.loadLights, 0, 0},
-                       fmt::format("holds lights of model '{}'; render with --lights {}",
-                                   lights.model, lights.model));
-    }
-    return lights;
-  }
   LightSettings settings;
   settings.count = options.lightCount;
   settings.set = static_cast<uint32_t>(set);
@@ -79,6 +69,17 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
   settings.glossy = options.lights != "vpl";
   settings.directAsLights = options.direct == "lights";
   settings.environmentLights = options.environmentLights;
+  if (!options.loadLights.empty()) {
+    const StageTimer timer(context, "lights");  // as makeLights() books its own seconds
+    VirtualLights lights = loadLights(options.loadLights, hash(tracer.scene()));
+    if (lights.model != options.lights) {
+      throw InputError({options.loadLights, 0, 0},
+                       fmt::format("holds lights of model '{}'; render with --lights {}",
+                                   lights.model, lights.model));
+    }
+    requireFit(options.loadLights, lights, settings, tracer.scene());
+    return lights;
+  }
   VirtualLights lights = makeLights(tracer, emitters, settings, context);
   lights.model = options.lights;
   // Lights of a pass that was stopped lack a part of their power: of no use later.

@@ -9,6 +9,13 @@ namespace mitsuba {
 
 ReadingGuard::ReadingGuard(std::set<const Element*>& open, const Element& element)
     : open_(open), element_(element) {
+  // References can nest deeper than elements do; the stack is finite.
+  constexpr size_t kMaxOpen = 64;
+  if (open_.size() >= kMaxOpen) {
+    throw InputError(element.where, "the " + element.tag + " '" + element.valueOr("id", "") +
+                                        "' lies inside more than " + std::to_string(kMaxOpen) +
+                                        " others; nest fewer");
+  }
   if (!open_.insert(&element).second) {
     throw InputError(element.where, "the " + element.tag + " '" + element.valueOr("id", "") +
                                         "' refers to itself");
