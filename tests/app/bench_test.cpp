@@ -72,6 +72,15 @@ TEST(Bench, RatesOfOnesOwnScene) {
   EXPECT_EQ(result["path"][0]["scene"], "cornell");
 }
 
+TEST(Bench, Picture) {
+  const json result = runBench("picture --detail 0.1 --size 16x16 --num-lights 64 --spp 64");
+  expectNumbers(result["picture"], 5, {"seconds", "mrays", "l2", "mean_ratio"});
+  EXPECT_EQ(result["picture"][0]["method"], "glossy");
+  EXPECT_EQ(result["picture"][4]["method"], "path");
+  EXPECT_TRUE(result["picture"][4]["lights"].is_null());
+  EXPECT_NEAR(result["picture"][4]["mean_ratio"].get<double>(), 1, 0.25);
+}
+
 // Tighter clamps lose more; on a diffuse scene little is lost without one.
 TEST(Bench, Clamp) {
   const json result = runBench(

@@ -22,6 +22,7 @@ struct Study {
 };
 constexpr Study kStudies[] = {
     {"rates", "rays per second: bare, of the gather, of the path tracer", benchRates},
+    {"picture", "time and error of whole pictures", benchPicture},
     {"clamp", "energy that clamping loses, against the path tracer", benchClamp},
     {"convergence", "mean of glossy virtual lights against the path tracer", benchConvergence},
 };

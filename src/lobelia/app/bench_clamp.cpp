@@ -36,7 +36,7 @@ Outcome measure(BenchScene& scene, const Reference& reference, const std::string
   std::vector<double> means;
   double l2 = 0;
   for (int i = 0; i < sets && !context.cancelled(); ++i) {
-    const Film film = scene.virtualLights(model, clamp, lights,
+    const Film film = scene.virtualLights(model, clamp, lights, 1,
                                           hashCombine(kLightStream, static_cast<uint64_t>(i)));
     means.push_back(scene.mean(film));
     l2 += compare(film, reference.first, &reference.second).l2 / sets;
@@ -46,7 +46,7 @@ Outcome measure(BenchScene& scene, const Reference& reference, const std::string
 
 BenchTable clampCurve(const BenchOptions& options, const std::string& defaultScene,
                       const std::string& key, Context& context) {
-  BenchScene scene(options, defaultScene, kPixels, context);
+  BenchScene scene(options, {.scene = defaultScene, .pixels = kPixels}, context);
   const uint64_t lights = options.lightCount > 0 ? options.lightCount : kLights;
   const int sets = options.sets > 0 ? options.sets : kSets;
   const Reference reference =

@@ -29,7 +29,7 @@ constexpr StudyScene kScenes[] = {{"study-diffuse", 0.01},
 
 void addScene(const BenchOptions& options, const StudyScene& study, BenchTable* table,
               Context& context) {
-  BenchScene scene(options, study.name, kPixels, context);
+  BenchScene scene(options, {.scene = study.name, .pixels = kPixels}, context);
   const Reference reference =
       pathReference(scene, options.spp > 0 ? options.spp : kSpp, options.seed, context);
   const uint64_t most = options.lightCount > 0 ? options.lightCount : kLights;
@@ -43,7 +43,7 @@ void addScene(const BenchOptions& options, const StudyScene& study, BenchTable* 
       context.progress(fmt::format("{}{}, {} lights", kBenchStage, scene.name(), lights),
                        static_cast<double>(i) / sets);
       const uint64_t seed = hashCombine(hashCombine(kLightStream, part), static_cast<uint64_t>(i));
-      const Film film = scene.virtualLights("glossy", "off", lights, seed);
+      const Film film = scene.virtualLights("glossy", "off", lights, 1, seed);
       means.push_back(scene.mean(film));
       if (i < l2Sets) l2 += compare(film, reference.first, &reference.second).l2 / l2Sets;
     }

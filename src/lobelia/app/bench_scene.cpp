@@ -10,18 +10,25 @@
 namespace lobelia::app {
 namespace {
 
-RenderOptions renderOptions(const BenchOptions& options, const std::string& defaultScene,
-                            uint64_t defaultPixels) {
+RenderOptions renderOptions(const BenchOptions& options, const BenchScene::Defaults& defaults) {
   RenderOptions out;
   out.scene = options.scene;
-  if (out.scene.scene.empty()) out.scene.scene = defaultScene;
+  if (out.scene.scene.empty()) out.scene.scene = defaults.scene;
   out.size = options.size;
   out.camera = options.camera;
-  out.pixels = options.pixels > 0 ? options.pixels : defaultPixels;
+  out.pixels = options.pixels > 0 ? options.pixels : defaults.pixels;
   out.maxDepth = options.maxDepth;
   out.seed = options.seed;
-  out.component = "indirect";
+  out.component = defaults.component;
   return out;
+}
+
+Camera scaledCamera(Camera camera, int width) {
+  camera.height = std::max(
+      1, static_cast<int>(std::lround(static_cast<double>(width) * camera.height / camera.width)));
+  camera.width = width;
+  camera.cropX0 = camera.cropY0 = 0, camera.cropX1 = camera.width, camera.cropY1 = camera.height;
+  return camera;
 }
 
 }  // namespace
@@ -39,17 +46,17 @@ Estimate ratio(Estimate a, Estimate b) {
   return {r, std::abs(r) * std::hypot(a.error / a.mean, b.error / b.mean)};
 }
 
-BenchScene::BenchScene(const BenchOptions& options, const std::string& defaultScene,
-                       uint64_t defaultPixels, Context& context)
-    : options_(renderOptions(options, defaultScene, defaultPixels)),
+BenchScene::BenchScene(const BenchOptions& options, const Defaults& defaults, Context& context)
+    : options_(renderOptions(options, defaults)),
       context_(context),
       scene_(loadScene(options_.scene, context)),
       camera_(chooseCamera(scene_, options_)),
-      pixels_(choosePixels(camera_, options_)),
       maxDepth_(options_.maxDepth > 0 ? options_.maxDepth : scene_.maxDepth),
       tracer_(scene_, context),
       emitters_(scene_, tracer_.bounds()) {
   name_ = options_.scene.scene;
+  if (options_.size.empty() && defaults.width > 0) camera_ = scaledCamera(camera_, defaults.width);
+  pixels_ = choosePixels(camera_, options_);
 }
 
 size_t BenchScene::pixelCount() const {
@@ -75,7 +82,7 @@ Film BenchScene::pathTraced(int spp, uint64_t seed) {
   settings.spp = spp;
   settings.maxDepth = maxDepth_;
   settings.specularLimit = options_.specularLimit;
-  settings.component = Component::indirect;
+  settings.component = options_.component == "indirect" ? Component::indirect : Component::all;
   settings.hideEmitters = scene_.hideEmitters;
   settings.pixels = pixels_;
   return render(
@@ -83,12 +90,12 @@ Film BenchScene::pathTraced(int spp, uint64_t seed) {
 }
 
 Film BenchScene::virtualLights(const std::string& model, const std::string& clamp,
-                               uint64_t lightCount, uint64_t seed) {
+                               uint64_t lightCount, int spp, uint64_t seed) {
   RenderOptions options = options_;
   options.lights = model;
   options.clamp = clamp;
   options.lightCount = lightCount;
-  options.spp = 1;
+  options.spp = spp;
   return render(seed, [&](Film& film) {
     renderVirtualLights(tracer_, emitters_, camera_, pixels_, maxDepth_, options, film, context_);
   });

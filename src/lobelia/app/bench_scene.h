@@ -1,4 +1,4 @@
-// A scene under study: its indirect light by path tracing and by virtual lights on the same pixels.
+// A scene under study: its light by path tracing and by virtual lights on the same pixels.
 #pragma once
 
 #include <functional>
@@ -17,19 +17,24 @@ Estimate ratio(Estimate a, Estimate b);  // of independent estimates
 
 class BenchScene {
  public:
-  // defaultScene is used when the options name none; defaultPixels likewise (0: all).
-  BenchScene(const BenchOptions& options, const std::string& defaultScene, uint64_t defaultPixels,
-             Context& context);
+  struct Defaults {  // where the options say nothing
+    std::string scene;
+    uint64_t pixels = 0;  // 0: all
+    int width = 0;        // 0: the scene's
+    std::string component = "indirect";
+  };
+  BenchScene(const BenchOptions& options, const Defaults& defaults, Context& context);
 
-  // Pictures of indirect light, or what there is of them when cancelled.
+  // Pictures, or what there is of them when cancelled.
   Film pathTraced(int spp, uint64_t seed);
   Film virtualLights(const std::string& model, const std::string& clamp, uint64_t lightCount,
-                     uint64_t seed);
+                     int spp, uint64_t seed);
 
   double mean(const Film& film) const;  // over the pixels and channels
   float radius() const { return tracer_.bounds().radius(); }
   const std::string& name() const { return name_; }
   size_t pixelCount() const;
+  const Camera& camera() const { return camera_; }
 
  private:
   Film render(uint64_t seed, const std::function<void(Film&)>& method);

@@ -11,6 +11,7 @@ namespace lobelia::app {
 inline constexpr std::string_view kBenchStage = "bench: ";
 
 std::vector<BenchTable> benchRates(const BenchOptions& options, Context& context);
+std::vector<BenchTable> benchPicture(const BenchOptions& options, Context& context);
 std::vector<BenchTable> benchClamp(const BenchOptions& options, Context& context);
 std::vector<BenchTable> benchConvergence(const BenchOptions& options, Context& context);
 
