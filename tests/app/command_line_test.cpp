@@ -245,6 +245,12 @@ TEST(CommandLine, PixelsAndCropAgreeWithTheWholePicture) {
     EXPECT_EQ(crop.x0, 4);
     EXPECT_EQ(crop.width, 10);
     EXPECT_EQ(crop.height, 6);
+    // Compared where both are. A ray's answer may rarely depend on its packet: not bit for bit.
+    const ProgramResult window =
+        runProgram("compare " + (folder / "crop.exr") + " " + (folder / "all.exr") + " --json");
+    ASSERT_EQ(window.exitCode, 0) << window.err;
+    EXPECT_EQ(nlohmann::json::parse(window.out)["pixels"], 60);
+    EXPECT_LT(nlohmann::json::parse(window.out)["l2"], 1e-3);
   }
 }
 

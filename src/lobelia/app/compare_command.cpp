@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -22,6 +23,49 @@ std::optional<Film> readOptional(const std::string& file) {
   return io::readFilm(file);
 }
 
+struct Window {
+  int x0, y0, x1, y1;
+};
+
+Film cut(const Film& film, const Window& window) {
+  Film out;
+  out.fullWidth = film.fullWidth, out.fullHeight = film.fullHeight;
+  out.x0 = window.x0, out.y0 = window.y0;
+  out.width = window.x1 - window.x0, out.height = window.y1 - window.y0;
+  const auto copyRows = [&](const std::vector<float>& from, std::vector<float>& to, int channels) {
+    const ptrdiff_t row = ptrdiff_t{out.width} * channels;
+    for (int y = window.y0; y < window.y1; ++y) {
+      const ptrdiff_t pixel = ptrdiff_t{y - film.y0} * film.width + (window.x0 - film.x0);
+      const auto begin = from.begin() + pixel * channels;
+      to.insert(to.end(), begin, begin + row);
+    }
+  };
+  const Layer& picture = film.layers.at("");
+  Layer& layer = out.layers[""];
+  layer.channels = picture.channels;
+  copyRows(picture.values, layer.values, picture.channels);
+  if (!film.alpha.empty()) copyRows(film.alpha, out.alpha, 1);
+  return out;
+}
+
+// Crops of one picture meet in the pixels that all of them have. Pictures of different sizes are
+// left for compare() to refuse.
+void cutToCommonWindow(const std::vector<Film*>& films) {
+  const Film& first = *films.front();
+  Window common{first.x0, first.y0, first.x0 + first.width, first.y0 + first.height};
+  bool same = true;
+  for (const Film* film : films) {
+    if (film->fullWidth != first.fullWidth || film->fullHeight != first.fullHeight) return;
+    same &= film->x0 == first.x0 && film->y0 == first.y0 && film->width == first.width &&
+            film->height == first.height;
+    common = {std::max(common.x0, film->x0), std::max(common.y0, film->y0),
+              std::min(common.x1, film->x0 + film->width),
+              std::min(common.y1, film->y0 + film->height)};
+  }
+  if (same || common.x0 >= common.x1 || common.y0 >= common.y1) return;
+  for (Film* film : films) *film = cut(*film, common);
+}
+
 }  // namespace
 
 ExitCode compareImages(const CompareOptions& options) {
@@ -31,9 +75,13 @@ ExitCode compareImages(const CompareOptions& options) {
     }
     requireWritable(options.diff);
   }
-  const Film image = io::readFilm(options.image), reference = io::readFilm(options.reference);
-  const std::optional<Film> reference2 = readOptional(options.reference2),
-                            mask = readOptional(options.mask);
+  Film image = io::readFilm(options.image), reference = io::readFilm(options.reference);
+  std::optional<Film> reference2 = readOptional(options.reference2),
+                      mask = readOptional(options.mask);
+  std::vector<Film*> films{&image, &reference};
+  for (std::optional<Film>* film : {&reference2, &mask})
+    if (*film) films.push_back(&**film);
+  cutToCommonWindow(films);
   const Comparison r =
       compare(image, reference, reference2 ? &*reference2 : nullptr, mask ? &*mask : nullptr);
   if (!options.diff.empty()) {
