@@ -79,6 +79,10 @@ Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
     if (width < 1 || height < 1 || width > 65536 || height > 65536) {
       throw UsageError(fmt::format("--size {}: sides go from 1 to 65536 pixels", options.size));
     }
+    constexpr int64_t kMaxPixels = 1 << 28;
+    if (int64_t{width} * height > kMaxPixels) {
+      throw UsageError(fmt::format("--size {}: more than 2^28 pixels", options.size));
+    }
     camera.width = width;
     camera.height = height;
     camera.cropX0 = camera.cropY0 = camera.cropX1 = camera.cropY1 = 0;

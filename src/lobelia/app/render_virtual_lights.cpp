@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "lobelia/bsdf/lobe_kind.h"
+
 namespace lobelia::app {
 namespace {
 
@@ -125,9 +127,7 @@ void addToLayer(Film& film, const char* name, size_t pixel, Rgb value) {
 void countReceivers(const Receivers& receivers, VirtualLightReport& report) {
   report.receiverPoints += receivers.points.size();
   for (const Lobe& lobe : receivers.lobes) {
-    const bool diffuse = lobe.type == LobeType::lambert || lobe.type == LobeType::coatedDiffuse ||
-                         lobe.type == LobeType::principledDiffuse ||
-                         lobe.type == LobeType::diffuseTransmission;
+    const bool diffuse = isDiffuse(lobe.type) || lobe.type == LobeType::diffuseTransmission;
     ++(diffuse ? report.diffuseReceivers : report.glossyReceivers);
   }
 }
@@ -151,37 +151,43 @@ void finishPartial(Film& film, const std::vector<int>& rowSamples, int sampleCou
   }
 }
 
-// Variance of the mean over the samples of a pixel, from the picture after each sample.
+// Variance of the mean over the samples of a pixel, from the picture after each sample. Samples
+// that gather the same lights share those lights' error, which does not show in it.
 class VarianceMeter {
  public:
   explicit VarianceMeter(Film& film) : film_(film), used_(film.layers.contains("variance")) {
-    if (used_) previous_.assign(film.pixelCount() * 3, 0.f), squares_ = previous_;
+    if (!used_) return;
+    previous_.assign(film.pixelCount() * 3, 0.f);
+    squares_.assign(film.pixelCount() * 3, 0.);
   }
   void afterSample(int sampleCount) {
     if (!used_) return;
     const auto& d = film_.layers.at("direct").values;
     const auto& i = film_.layers.at("indirect").values;
     for (size_t k = 0; k < previous_.size(); ++k) {
-      squares_[k] += sqr((d[k] + i[k] - previous_[k]) * static_cast<float>(sampleCount));
+      const double sample = static_cast<double>(d[k] + i[k] - previous_[k]) * sampleCount;
+      squares_[k] += sample * sample;
       previous_[k] = d[k] + i[k];
     }
-    ++samples_;
   }
-  void finish(int sampleCount) {
-    if (!used_ || samples_ == 0) return;
-    const float n = static_cast<float>(samples_);
+  // rowSamples: how many samples every row got.
+  void finish(const std::vector<int>& rowSamples, int sampleCount) {
+    if (!used_) return;
     auto& out = film_.layers.at("variance").values;
+    const size_t row = static_cast<size_t>(film_.width) * 3;
     for (size_t k = 0; k < out.size(); ++k) {
-      const float mean = previous_[k] * static_cast<float>(sampleCount) / n;
-      out[k] = std::max(squares_[k] / n - sqr(mean), 0.f) / std::max(n - 1, 1.f);
+      const double n = rowSamples[k / row];
+      if (n < 2) continue;
+      const double mean = static_cast<double>(previous_[k]) * sampleCount / n;
+      out[k] = static_cast<float>(std::max(squares_[k] / n - mean * mean, 0.) / (n - 1));
     }
   }
 
  private:
   Film& film_;
   bool used_;
-  int samples_ = 0;
-  std::vector<float> previous_, squares_;
+  std::vector<float> previous_;
+  std::vector<double> squares_;
 };
 
 }  // namespace
@@ -258,7 +264,7 @@ VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSample
     context.warning("--time-limit ended before every pixel had a sample; these have alpha 0");
   }
   finishPartial(film, rowSamples, eye.sampleCount);
-  variance.finish(eye.sampleCount);
+  variance.finish(rowSamples, eye.sampleCount);
   return report;
 }
 
