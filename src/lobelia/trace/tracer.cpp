@@ -1,9 +1,5 @@
 // Ray queries by Embree.
 //
-// Embree asks for denormal numbers to be flushed to zero. The mode is set around each query and
-// restored after it: results must not depend on which thread ran what, and the mode must not leak
-// into the rest of the program.
-//
 // Embree takes rays with NaN or huge coordinates for a programmer's error (builds with assertions,
 // Debian's among them, abort). Here they hit nothing and count as visible: what caused them then
 // shows up in the values that the stages check and count, instead of becoming shadow.
@@ -18,31 +14,10 @@
 #endif
 
 #include "lobelia/trace/accel.h"
+#include "lobelia/trace/flush_denormals.h"
 
 namespace lobelia {
 namespace {
-
-#if defined(__SSE__)
-class FlushDenormals {
- public:
-  FlushDenormals() : old_(_mm_getcsr()) {
-    if ((old_ & kBits) != kBits) _mm_setcsr(old_ | kBits);
-  }
-  ~FlushDenormals() {
-    if ((old_ & kBits) != kBits) _mm_setcsr(old_);
-  }
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  static constexpr unsigned kBits = 0x8040;  // flush to zero, denormals are zero
-  unsigned old_;
-};
-#else
-struct FlushDenormals {
-  FlushDenormals() {}
-};
-#endif
 
 // Embree's own limit (its FLT_LARGE).
 constexpr float kLarge = 1.844e18f;
