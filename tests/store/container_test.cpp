@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "lobelia/base/error.h"
+#include "lobelia/base/file.h"
 #include "lobelia/base/random.h"
 #include "lobelia/store/store.h"
 

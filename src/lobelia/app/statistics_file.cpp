@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "lobelia/store/store.h"
+#include "lobelia/base/file.h"
 #include "lobelia/version.h"
 
 namespace lobelia::app {
@@ -86,7 +86,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"bytes_per_light", ratio(lightBytes, static_cast<double>(lights.size()))},
                     {"bytes_per_receiver", ratio(receiverBytes, receivers)}};
   const std::string text = json.dump(2) + "\n";
-  store::writeFileAtomically(file, std::as_bytes(std::span<const char>(text)));
+  writeFileAtomically(file, std::as_bytes(std::span<const char>(text)));
 }
 
 }  // namespace lobelia::app

@@ -23,6 +23,7 @@
 #include <memory>
 
 #include "lobelia/base/error.h"
+#include "lobelia/base/file.h"
 #include "lobelia/store/store.h"
 
 namespace lobelia::store {

@@ -1,4 +1,5 @@
-// Our data files: magic, version, named chunks (zstd), one checksum (XXH3), written atomically.
+// Our data files: magic, version, named chunks (zstd), one checksum (XXH3), written atomically
+// (base/file.h).
 #pragma once
 
 #include <cstddef>
@@ -11,18 +12,6 @@
 #include <vector>
 
 namespace lobelia::store {
-
-// Writes to FILE.tmp-PID in the same folder, syncs, renames. Throws RuntimeError that names the
-// file and the reason, and leaves nothing half-written. A link is followed; a device or a pipe is
-// written to directly.
-void writeFileAtomically(const std::string& file, std::span<const std::byte> bytes);
-// The same for a file in several parts, one after the other.
-void writeFileAtomically(const std::string& file,
-                         std::span<const std::span<const std::byte>> parts);
-// Throws InputError, also when the file holds more than maxBytes.
-std::vector<std::byte> readFile(const std::string& file, uint64_t maxBytes = 1ull << 36);
-// Up to the first `bytes` bytes. Throws InputError.
-std::vector<std::byte> readFileStart(const std::string& file, size_t bytes);
 
 // Collects named chunks and writes them as one file (layout: container.cpp). `kind` says what the
 // file holds, in at most 16 bytes; `version` is that of the kind's chunks.

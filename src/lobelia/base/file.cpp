@@ -1,4 +1,5 @@
-// Whole files in and out: reading with a limit, writing atomically.
+#include "lobelia/base/file.h"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,9 +10,8 @@
 #include <system_error>
 
 #include "lobelia/base/error.h"
-#include "lobelia/store/store.h"
 
-namespace lobelia::store {
+namespace lobelia {
 namespace {
 
 std::string reason(int error) { return std::generic_category().message(error); }
@@ -171,4 +171,4 @@ std::vector<std::byte> readFileStart(const std::string& file, size_t bytes) {
   return start;
 }
 
-}  // namespace lobelia::store
+}  // namespace lobelia

@@ -1,3 +1,5 @@
+#include "lobelia/base/file.h"
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -9,9 +11,8 @@
 #include <fstream>
 
 #include "lobelia/base/error.h"
-#include "lobelia/store/store.h"
 
-namespace lobelia::store {
+namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
@@ -126,4 +127,4 @@ TEST_F(FileTest, FailureHalfWayKeepsTheOldFile) {
 }
 
 }  // namespace
-}  // namespace lobelia::store
+}  // namespace lobelia
