@@ -69,7 +69,11 @@ TEST(MitsubaXml, ParametersAreSubstituted) {
 TEST(MitsubaXml, DefinitionsThatNothingUsesAreReported) {
   io::ReadSettings settings;
   settings.definitions["ssp"] = "4";
-  EXPECT_TRUE(contains(onlyFinding(readModern("", settings)), "'ssp'"));
+  const std::string message = onlyFinding(readModern("", settings));
+  EXPECT_TRUE(contains(message, "'ssp'"));
+  EXPECT_FALSE(contains(message, "did you mean")) << "nothing else is there to be meant";
+  const std::string body = "<default name=\"spp\" value=\"1\"/>";
+  EXPECT_TRUE(contains(onlyFinding(readModern(body, settings)), "did you mean 'spp'"));
 }
 
 TEST(MitsubaXml, UndefinedParametersMatterWhereTheyAreUsed) {

@@ -86,9 +86,11 @@ class Loader {
     for (const auto& [name, value] : parameters_) unused_.insert(name);
     document_.searchPaths = {fs::path(file).parent_path().string()};
     readFile(file, {}, document_.scene, 0);
+    std::vector<std::string> known = keysOf(parameters_);
+    std::erase_if(known, [&](const std::string& name) { return unused_.contains(name); });
     for (const std::string& name : unused_) {
       findings_.warn({file, 0, 0}, "the scene has no parameter '" + name + "' to define" +
-                                       suggestion(name, keysOf(parameters_)));
+                                       suggestion(name, known));
     }
     collectIds(document_.scene);
     for (const auto& [id, target, where] : aliases_) addAlias(id, target, where);
