@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "lobelia/base/random.h"
 #include "support/test_scenes.h"
 
@@ -234,6 +236,46 @@ TEST(EmitterSampler, KeepsHalfOfUniformSelection) {
     if (s && s->emitter == dimIndex) ++count;
   }
   EXPECT_GT(count, kSamples / (2 * kEmitters) * 0.93);
+}
+
+// A broken or black emitter, alone or beside a sound one: no density is out of bounds or not
+// finite, and the sound one is sampled as before.
+TEST(EmitterSampler, BrokenEmittersDoNotSpoilOthers) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  for (const Rgb value : {Rgb(nan, 1, 1), Rgb(inf), Rgb(-1.f), Rgb(0.f)}) {
+    for (const Lighting broken : {Lighting::quad, Lighting::sphere, Lighting::point,
+                                  Lighting::directional, Lighting::constant}) {
+      for (const bool sound : {false, true}) {
+        Scene scene = test::stageScene();
+        addLighting(scene, broken);
+        scene.emitters.back().radiance = value;
+        const size_t bad = scene.emitters.size() - 1;
+        if (sound) {
+          test::addQuad(scene, {-1.8f, 1.5f, -1}, {0.4f, 0, 0}, {0, 0, 0.4f}, {0},
+                        test::addAreaEmitter(scene, Rgb(2)));
+        }
+        const Renderable r(scene);
+        EXPECT_TRUE(std::isfinite(r.emitters.power()));
+        Rng random(7);
+        int found = 0;
+        for (int i = 0; i < 400; ++i) {
+          const Vec3f p{-1.5f, 0.5f, -0.8f};
+          const auto s = r.emitters.sampleDirection(p, {0, 1, 0}, next3D(random));
+          if (s && s->emitter != bad) {
+            EXPECT_TRUE(isFinite(s->weight) && std::isfinite(s->pdf));
+            ++found;
+          }
+          EXPECT_TRUE(
+              std::isfinite(meet(r, p, {0, 1, 0}, sampleSphereUniform(random.next2D())).pdf));
+          const float select = random.next1D();
+          const Vec2f a = random.next2D();
+          r.emitters.sampleRay(select, a, random.next2D());
+        }
+        EXPECT_EQ(found > 100, sound) << nameOf(broken);
+      }
+    }
+  }
 }
 
 TEST(EmitterSampler, ManyTrianglesAreSampledEvenly) {

@@ -50,6 +50,7 @@ struct EmitterSampler::Impl {
     if (!bounds.empty())
       centre = bounds.centre(), radius = std::max(bounds.radius(), 1e-6f) * 1.0001f;
     for (uint32_t e = 0; e < scene.emitters.size(); ++e) addInfinite(e);
+    uniformShare.assign(finite.size(), 0);  // pdfHit() asks whether or not anything can be sampled
     std::vector<float> fluxes = finite.fluxes();
     double finiteFlux = 0;
     for (const float f : fluxes) finiteFlux += static_cast<double>(f);
@@ -71,13 +72,15 @@ struct EmitterSampler::Impl {
     } else if (emitter.type == EmitterType::constant || emitter.type == EmitterType::environment) {
       light.environment = environments.size();
       environments.emplace_back(scene, emitter);
-      light.flux = disk * std::max(0.0, environments.back().integral());
+      light.flux = disk * environments.back().integral();
     } else {
       return;
     }
-    if (light.flux > 0) {
+    // One that cannot be sampled is still seen: its non-finite radiance is to be counted, not
+    // hidden.
+    if (light.flux > 0 && std::isfinite(light.flux)) {
       infinite.push_back(light);
-    } else if (!light.directional) {
+    } else if (!light.directional && light.flux == 0) {
       environments.pop_back();
     }
   }
@@ -101,7 +104,6 @@ struct EmitterSampler::Impl {
     if (finite.size() > kFewLights) tree = EmitterTree(finite.treeLights());
     treeProbability = static_cast<float>(tree.empty() ? 0 : byTree);
     uniformProbability = static_cast<float>(tree.empty() ? even + byTree : even);
-    uniformShare.resize(finite.size());
     for (size_t i = 0; i < uniformShare.size(); ++i) {
       uniformShare[i] = uniformProbability * uniform.probability(i);
     }

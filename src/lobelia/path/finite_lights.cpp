@@ -40,6 +40,10 @@ bool masked(const Scene& scene, const Instance& instance) {
   return instance.material.valid() && hasOpacity(scene, instance.material);
 }
 
+// Emitters without a finite, positive estimate get none of the probability that goes by estimates,
+// and do not spoil the sums in which the others take part.
+float usable(float estimate) { return estimate > 0 && std::isfinite(estimate) ? estimate : 0.f; }
+
 }  // namespace
 
 FiniteLights::FiniteLights(const Scene& scene) : scene_(scene) {
@@ -232,6 +236,7 @@ std::vector<float> FiniteLights::fluxes() const {
         projector ? light.peak * light.cosCutoff * light.cosCutoff * 4 * light.tanX * light.tanY
                   : light.peak * (light.cosCutoff <= -1 ? 4 * kPi : solidAngle);
   }
+  for (float& flux : result) flux = usable(flux);
   return result;
 }
 
@@ -262,6 +267,7 @@ std::vector<TreeLight> FiniteLights::treeLights() const {
     out.cosThetaE = 1;
     out.intensity = std::max(0.f, light.peak);
   }
+  for (TreeLight& light : result) light.intensity = usable(light.intensity);
   return result;
 }
 
