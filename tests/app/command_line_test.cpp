@@ -1,5 +1,6 @@
 // The program as a user types it: results, messages and exit codes of the contract.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -112,6 +113,18 @@ TEST(CommandLine, OutputToAFullDiskIsOne) {
   expectFailure(
       std::string(kSmall) + "--spp 1 --num-lights 10 --stats /dev/full -o " + (folder / "a.exr"), 1,
       "/dev/full");
+}
+
+TEST(CommandLine, PicturesLargerThanMemoryAreRefused) {
+  const double bytes =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (bytes > 120.0 * 16384 * 16384) GTEST_SKIP() << "skipped: the largest picture fits";
+  const TemporaryFolder folder;
+  expectFailure(
+      "render cornell --detail 0.1 --size 16384x16384 --aov "
+      "albedo,normal,depth,direct,indirect,specular,variance -o " +
+          (folder / "a.exr"),
+      1, "--crop");
 }
 
 // What a file holds may be anything; a message that quotes it stays short and moves no cursor.

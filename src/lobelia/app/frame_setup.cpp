@@ -55,6 +55,21 @@ std::vector<std::string> requestedLayers(const RenderOptions& options) {
   return out;
 }
 
+// Memory that the machine does not have is given all the same by most systems, and the program
+// killed without a word when it is used.
+void requireMemory(const Camera& camera, size_t channels) {
+  const double width = camera.cropX1 - camera.cropX0, height = camera.cropY1 - camera.cropY0;
+  const double needed = width * height * static_cast<double>(channels * sizeof(float));
+  const double present =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (needed <= present) return;
+  constexpr double kGiB = 1 << 30;
+  throw RuntimeError(fmt::format(
+      "a picture of {} x {} pixels needs {:.0f} GiB and the machine has {:.0f}; lower --size, or "
+      "render parts of it with --crop",
+      width, height, needed / kGiB, present / kGiB));
+}
+
 }  // namespace
 
 Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
@@ -118,10 +133,12 @@ Film makeFilm(const Camera& camera, const RenderOptions& options) {
   film.y0 = camera.cropY0;
   film.width = camera.cropX1 - camera.cropX0;
   film.height = camera.cropY1 - camera.cropY0;
+  const std::vector<std::string> layers = requestedLayers(options);
+  requireMemory(camera, 3 * (3 + layers.size()));
   film.addLayer("");
   film.addLayer("direct");
   film.addLayer("indirect");
-  for (const std::string& name : requestedLayers(options)) {
+  for (const std::string& name : layers) {
     film.addLayer(name, name == "depth" ? 1 : 3);
   }
   return film;
