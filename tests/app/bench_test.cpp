@@ -54,8 +54,9 @@ TEST(Bench, Rates) {
       runBench("rates --detail 0.1 --size 64x48 --num-lights 40 --spp 1 --sets 2", &text);
   expectNumbers(result["bare"], 3, {"mrays_per_second", "visible"});
   expectNumbers(result["gather"], 6,
-                {"gather_mrays_per_second", "bare_mrays_per_second", "ratio", "ratio_processor"});
-  expectNumbers(result["path"], 2, {"path_mrays_per_second", "bare_mrays_per_second", "ratio"});
+                {"gather_mrays_per_second", "bare_mrays_per_second_processor", "ratio",
+                 "ratio_processor", "ratio_one_light"});
+  expectNumbers(result["path"], 3, {"path_mrays_per_second", "ratio", "ratio_processor"});
   for (const json& row : result["gather"]) EXPECT_GT(row["gather_mrays_per_second"], 0) << row;
   for (const json& row : result["bare"]) {
     EXPECT_GT(row["visible"], 0) << row;

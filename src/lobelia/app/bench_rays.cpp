@@ -10,6 +10,7 @@ namespace lobelia::app {
 namespace {
 
 constexpr size_t kLanes = ShadowPacket::kSize;
+constexpr int kTries = 1000;  // to find points that face each other
 
 uint32_t morton(Vec3f unit) {
   const auto spread = [](float v) {
@@ -38,6 +39,11 @@ struct Recorder {
     return tracer.visible(a, b);
   }
 };
+
+// Pairs that do not face each other need no shadow ray.
+bool face(const PointNormal& a, const PointNormal& b) {
+  return dot(a.n, b.p - a.p) > 0 && dot(b.n, a.p - b.p) > 0;
+}
 
 }  // namespace
 
@@ -70,10 +76,12 @@ Receivers spreadReceivers(const Receivers& receivers, size_t count) {
 Packets randomToRandom(const std::vector<PointNormal>& places, size_t packets, uint64_t seed) {
   Rng rng(seed);
   Packets result(packets);
+  const auto any = [&] { return places[rng.nextUint() % places.size()]; };
   for (ShadowPacket& packet : result) {
     for (size_t i = 0; i < kLanes; ++i) {
-      const Vec3f a = places[rng.nextUint() % places.size()].p;
-      packet.set(static_cast<int>(i), a, places[rng.nextUint() % places.size()].p);
+      PointNormal a = any(), b = any();
+      for (int tries = 0; tries < kTries && !face(a, b); ++tries) a = any(), b = any();
+      packet.set(static_cast<int>(i), a.p, b.p);
     }
   }
   return result;
@@ -87,14 +95,17 @@ Packets pointToSorted(std::vector<PointNormal> places, size_t packets, uint64_t 
     return morton((a.p - box.lo) / extent) < morton((b.p - box.lo) / extent);
   });
   Rng rng(seed);
-  Packets result(packets);
-  const size_t perPoint = std::max<size_t>(1, places.size() / kLanes);
-  Vec3f from;
-  for (size_t k = 0; k < packets; ++k) {
-    if (k % perPoint == 0) from = places[rng.nextUint() % places.size()].p;
-    for (size_t i = 0; i < kLanes; ++i) {
-      const size_t to = (k % perPoint * kLanes + i) % places.size();
-      result[k].set(static_cast<int>(i), from, places[to].p);
+  Packets result;
+  for (int tries = 0; tries < kTries || !result.empty(); ++tries) {
+    const PointNormal from = places[rng.nextUint() % places.size()];
+    ShadowPacket packet{};
+    int filled = 0;
+    for (const PointNormal& to : places) {
+      if (!face(from, to)) continue;
+      packet.set(filled, from.p, to.p);
+      if (++filled < ShadowPacket::kSize) continue;
+      result.push_back(packet), filled = 0;
+      if (result.size() == packets) return result;
     }
   }
   return result;

@@ -19,12 +19,11 @@ std::vector<PointNormal> places(const VirtualLights& lights);  // of the diffuse
 Receivers spreadReceivers(const Receivers& receivers, size_t count);
 
 using Packets = std::vector<ShadowPacket>;
-// Random points to random lights.
+// Random points to random lights; here and below, only pairs that face each other.
 Packets randomToRandom(const std::vector<PointNormal>& places, size_t packets, uint64_t seed);
 // One point after another to the lights along a Morton curve.
 Packets pointToSorted(std::vector<PointNormal> places, size_t packets, uint64_t seed);
-// Receivers in their order to a few lights, one by one, as gatherAll() traces them: pairs that face
-// each other only.
+// Receivers in their order to a few lights, one by one, as gatherAll() traces them.
 Packets tileToLights(std::span<const ReceiverPoint> tile, std::span<const PointNormal> lights);
 
 // The rays of path tracing width x height pixels of a camera, tile by tile in the order in which
