@@ -208,7 +208,7 @@ VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSample
   eye.sampleCount = options.spp > 0 ? options.spp : 4;
   eye.maxDepth = maxDepth;
   eye.specularLimit = options.specularLimit;
-  eye.directSamples = options.direct == "lights" ? 0 : 4;
+  if (options.direct == "lights") eye.directSamples = 0;
   eye.hideEmitters = tracer.scene().hideEmitters;
   eye.pixels = pixels;
 

@@ -168,7 +168,12 @@ void EyeWalk::receive(const EyeSegment& segment, const Vertex& v, State* state) 
   const Rgb light = nextEvent(v, LobeSet::rough, settings_.directSamples, state);
   addLight(next, segment.throughput * light, state);
   if (mayEnd(v.depth + 2) || settings_.directSamples == 0) record(segment, v, state);
-  scatter(segment, v, LobeSet::rough, next, state);
+  // The mean of several samples: connections are few and bright. Their weights against the emitter
+  // samples stay those of one sample each; they still sum to one.
+  const int count = std::max(settings_.connectionSamples, 1);
+  EyeSegment from = segment;
+  from.throughput /= static_cast<float>(count);
+  for (int i = 0; i < count; ++i) scatter(from, v, LobeSet::rough, next, state);
 }
 
 void EyeWalk::record(const EyeSegment& segment, const Vertex& v, State* state) const {

@@ -36,8 +36,8 @@ struct EyeSettings {
   int sampleCount = 1;  // total (for the weight)
   int maxDepth = -1;
   float specularLimit = 0.08f;
-  int directSamples =
-      1;  // emitter samples per receiver for direct light; 0: none (--direct lights)
+  int directSamples = 4;      // emitter samples per receiver; 0: none (--direct lights)
+  int connectionSamples = 4;  // samples of the rough lobes, per receiver, for specular connections
   bool hideEmitters = false;
   PixelSet pixels;
 };
