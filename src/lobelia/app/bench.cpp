@@ -9,8 +9,8 @@
 #include "lobelia/app/bench_studies.h"
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/signals.h"
+#include "lobelia/base/file.h"
 #include "lobelia/base/parallel.h"
-#include "lobelia/store/store.h"
 
 namespace lobelia::app {
 namespace {
@@ -111,7 +111,7 @@ ExitCode bench(const BenchOptions& options, const GlobalOptions& global,
   std::fflush(stdout);
   if (!options.json.empty()) {
     const std::string text = json(run);
-    store::writeFileAtomically(options.json, std::as_bytes(std::span<const char>(text)));
+    writeFileAtomically(options.json, std::as_bytes(std::span<const char>(text)));
   }
   return signalExitCode();
 }
