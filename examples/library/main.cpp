@@ -29,7 +29,8 @@ int main(int argc, char** argv) {
   camera.width = camera.cropX1 = camera.height = camera.cropY1 = 64;
   camera.cropX0 = camera.cropY0 = 0;
 
-  Film film{.fullWidth = 64, .fullHeight = 64, .width = 64, .height = 64};
+  Film film;
+  film.fullWidth = film.width = film.fullHeight = film.height = 64;
   for (const char* layer : {"", "direct", "indirect"}) film.addLayer(layer);
   Film reference = film;
   renderPath(tracer, emitters, camera, {.spp = 64}, reference, context);
