@@ -55,11 +55,15 @@ TEST(Parallel, ThreadLimitIsReachedAndKept) {
     std::mutex mutex;
     std::set<std::thread::id> ids;
     std::atomic<int> running{0}, most{0};
+    // A busy machine may take its time to start the threads: the first pieces wait for them.
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     parallelFor(200, 1, [&](size_t) {
       const int now = ++running;
       for (int m = most; now > m && !most.compare_exchange_weak(m, now);) {
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      do {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      } while (most < threads && std::chrono::steady_clock::now() < deadline);
       --running;
       const std::lock_guard lock(mutex);
       ids.insert(std::this_thread::get_id());

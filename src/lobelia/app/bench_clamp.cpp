@@ -1,4 +1,4 @@
-// The loss of energy by clamping and by diffuse-only lights [P003 sections 1 and 3; figure 1
+// The loss of energy by clamping and by diffuse-only lights [Hasan09 sections 1 and 3; figure 1
 // there]: mean of the indirect light of `vpl` and `glossy` relative to the path tracer over
 // --clamp.
 #include <fmt/format.h>
