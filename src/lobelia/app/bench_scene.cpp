@@ -20,6 +20,7 @@ RenderOptions renderOptions(const BenchOptions& options, const BenchScene::Defau
   out.maxDepth = options.maxDepth;
   out.seed = options.seed;
   out.component = defaults.component;
+  out.passes = 1;  // the studies draw their sets themselves
   return out;
 }
 

@@ -80,7 +80,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
   c.add_option("--gather", o.gather, "Gather strategy; see `lobelia methods`")
       ->capture_default_str();
   c.add_option("--spp", o.spp,
-               "Samples per pixel; default: 4 with virtual lights, else the scene's or 64")
+               "Samples per pixel; default: 16 with virtual lights, else the scene's or 64")
       ->check(CLI::Range(1, 1 << 24));
   c.add_option("--size", o.size, "WxH in pixels");
   c.add_option("--crop", o.crop,
@@ -91,13 +91,13 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
   c.add_option("--max-depth", o.maxDepth,
                "1: emission only, 2: direct light, ...; default: the scene's, else unlimited")
       ->check(CLI::Range(1, 1 << 20));
-  c.add_option("--num-lights", o.lightCount, "Virtual lights aimed at")
+  c.add_option("--num-lights", o.lightCount, "Virtual lights aimed at, per set")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 31))
       ->capture_default_str();
   c.add_option("--passes", o.passes,
-               "Independent sets of lights; the eye samples are shared out among them")
-      ->check(CLI::Range(1, 1 << 24))
-      ->capture_default_str();
+               "Independent sets of lights, among which the samples are shared out; default: a set "
+               "per sample (one set with --save-lights, --load-lights)")
+      ->check(CLI::Range(1, 1 << 24));
   c.add_option("--env-lights", o.environmentLights,
                "With --direct lights: directional lights per environment")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 24))
@@ -110,7 +110,8 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->check(finiteNumber(0, 1))
       ->capture_default_str();
   c.add_option("--clamp", o.clamp,
-               "Upper limit of geometry term times lobes, or off; default: off (vpl: 10/bounds^2)");
+               "Upper limit of geometry term times lobes, or off; default: off (vpl: 127/R^2, R "
+               "the scene's radius)");
   c.add_option("--component", o.component, "Which light: all, direct or indirect")
       ->check(CLI::IsMember({"all", "direct", "indirect"}))
       ->capture_default_str();

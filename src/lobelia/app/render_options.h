@@ -29,9 +29,9 @@ struct RenderOptions {
   int spp = 0;  // 0: the method's default
   std::string size, crop, camera;
   uint64_t pixels = 0;
-  int passes = 1;    // independent light sets
+  int passes = 0;    // independent light sets; 0: one per sample, unless lights are saved or loaded
   int maxDepth = 0;  // 0: the scene's
-  uint64_t lightCount = 2048, environmentLights = 1024;
+  uint64_t lightCount = 512, environmentLights = 1024;
   std::string direct = "nee";
   float specularLimit = 0.08f;
   std::string clamp;  // "": the method's default

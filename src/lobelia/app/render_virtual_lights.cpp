@@ -205,7 +205,7 @@ VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSample
   LightParts parts = splitLights(report.lights);
 
   EyeSettings eye;
-  eye.sampleCount = options.spp > 0 ? options.spp : 4;
+  eye.sampleCount = options.spp > 0 ? options.spp : 16;
   eye.maxDepth = maxDepth;
   eye.specularLimit = options.specularLimit;
   if (options.direct == "lights") eye.directSamples = 0;
@@ -233,7 +233,9 @@ VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSample
     }
   };
 
-  report.sets = std::min(options.passes, eye.sampleCount);
+  const bool oneSet = !options.saveLights.empty() || !options.loadLights.empty();
+  const int passes = options.passes > 0 ? options.passes : oneSet ? 1 : eye.sampleCount;
+  report.sets = std::min(passes, eye.sampleCount);
   int set = 0;
   for (eye.sample = 0; eye.sample < eye.sampleCount && !stop(); ++eye.sample) {
     const int wanted = static_cast<int>(int64_t{eye.sample} * report.sets / eye.sampleCount);
