@@ -5,8 +5,8 @@
 // 1e-3; the image passes when 99.75 % of the values do.
 //
 // The variance images hold second moments that were accumulated in XYZ and turned into RGB like a
-// colour, less the square of the RGB mean. The matrix has negative entries, so up to 94 % of an
-// image's "variances" are negative or far too small, and a noisy pixel of the reference itself
+// colour, less the square of the RGB mean. The matrix has negative entries, so up to 41 % of an
+// image's "variances" are negative, and a noisy pixel of the reference itself
 // would fail with them. Undone exactly, they are proper variances of X, Y and Z: the test is made
 // there. The figure for the RGB values as they stand is printed beside it.
 #include <fmt/format.h>
