@@ -10,20 +10,7 @@ namespace lobelia::test {
 namespace {
 
 Rgb integrate(const Lobe& lobe, Vec3f wo, float spread) {
-  const Example e{"", single(lobe), spread};
-  Values<3> total{};
-  for (const Part& part : partsOf(e, wo)) {
-    const auto f = [&](Vec3f wi) {
-      if (!part.holds(wi)) return Values<3>{};
-      const Rgb v = evaluate(e.bsdf, wo, wi, LobeSet::all, Transport::importance);
-      return Values<3>{static_cast<double>(v.x), static_cast<double>(v.y),
-                       static_cast<double>(v.z)};
-    };
-    const Values<3> v =
-        integrateSphere<3>(SphereChart(part.axis, static_cast<double>(part.spread)), f, 1e-5);
-    for (size_t k = 0; k < 3; ++k) total[k] += v[k];
-  }
-  return {static_cast<float>(total[0]), static_cast<float>(total[1]), static_cast<float>(total[2])};
+  return quadratureAlbedo({"", single(lobe), spread}, wo);
 }
 
 void expectAlbedo(const std::string& name, const Lobe& lobe, float spread, float tolerance) {

@@ -7,6 +7,7 @@
 #include "lobelia/bsdf/bsdf.h"
 #include "lobelia/bsdf/coat.h"
 #include "lobelia/bsdf/lobe_sampling.h"
+#include "support/chi_squared.h"
 
 namespace lobelia::test {
 
@@ -158,6 +159,23 @@ inline std::vector<Part> partsOf(const Example& e, Vec3f wo) {
   }
   parts.push_back({through, -sign, spread});
   return parts;
+}
+
+// Scattered share of importance that arrives from wo, by adaptive quadrature over the sphere.
+inline Rgb quadratureAlbedo(const Example& e, Vec3f wo) {
+  Values<3> total{};
+  for (const Part& part : partsOf(e, wo)) {
+    const auto f = [&](Vec3f wi) {
+      if (!part.holds(wi)) return Values<3>{};
+      const Rgb v = evaluate(e.bsdf, wo, wi, LobeSet::all, Transport::importance);
+      return Values<3>{static_cast<double>(v.x), static_cast<double>(v.y),
+                       static_cast<double>(v.z)};
+    };
+    const Values<3> v =
+        integrateSphere<3>(SphereChart(part.axis, static_cast<double>(part.spread)), f, 1e-5);
+    for (size_t k = 0; k < 3; ++k) total[k] += v[k];
+  }
+  return {static_cast<float>(total[0]), static_cast<float>(total[1]), static_cast<float>(total[2])};
 }
 
 inline Vec3f directionAt(float cosTheta, float phi) {

@@ -98,22 +98,6 @@ Mean sampledAlbedo(const Bsdf& bsdf, Vec3f wo, uint64_t seed) {
           std::sqrt(std::max(0.0, squares / n - sum.y * sum.y) / n)};
 }
 
-Rgb quadratureAlbedo(const Example& e, Vec3f wo) {
-  Values<3> total{};
-  for (const Part& part : partsOf(e, wo)) {
-    const auto f = [&](Vec3f wi) {
-      if (!part.holds(wi)) return Values<3>{};
-      const Rgb v = evaluate(e.bsdf, wo, wi, LobeSet::all, Transport::importance);
-      return Values<3>{static_cast<double>(v.x), static_cast<double>(v.y),
-                       static_cast<double>(v.z)};
-    };
-    const Values<3> v =
-        integrateSphere<3>(SphereChart(part.axis, static_cast<double>(part.spread)), f, 1e-5);
-    for (size_t k = 0; k < 3; ++k) total[k] += v[k];
-  }
-  return {static_cast<float>(total[0]), static_cast<float>(total[1]), static_cast<float>(total[2])};
-}
-
 TEST(BsdfSampling, MeanWeightIsTheAlbedo) {
   uint64_t seed = 100;
   for (const Example& e : examples()) {

@@ -4,6 +4,7 @@
 // "trilinear" of 0.6 are read as bilinear: prefiltering changes noise, not the expected image much.
 // As in Mitsuba, the alpha channel of an image is dropped unless channel = "a" asks for it.
 
+#include "lobelia/film/film.h"
 #include "lobelia/io/image_io.h"
 #include "lobelia/io/mitsuba_reader.h"
 
@@ -222,7 +223,7 @@ Rgb Reader::rgb(const Element& element) const {
       out[c] = static_cast<float>(v[v.size() == 1 ? 0 : static_cast<size_t>(c)]);
     }
   }
-  if (encoded) out = {srgbToLinear(out.x), srgbToLinear(out.y), srgbToLinear(out.z)};
+  if (encoded) out = {decodeSrgb(out.x), decodeSrgb(out.y), decodeSrgb(out.z)};
   return out;
 }
 

@@ -127,10 +127,6 @@ Rgb blackbodyToRgb(double kelvin) {
   return out;
 }
 
-float srgbToLinear(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 void checkSpectrum(const Spectrum& s, const Location& where) {
   if (s.wavelengths.size() < 2) {
     throw InputError(where,

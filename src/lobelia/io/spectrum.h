@@ -29,7 +29,6 @@ Vec3d xyzToRgb(Vec3d xyz);
 Rgb spectrumToRgb(const Spectrum& spectrum, SpectrumUse use, bool* clamped = nullptr);
 // Radiance of a black body in W/(m^2 sr nm) by Planck's law, through spectrumToRgb.
 Rgb blackbodyToRgb(double kelvin);
-float srgbToLinear(float encoded);
 
 // Text file with "wavelength value" lines and # comments. Throws InputError.
 Spectrum readSpectrum(const std::string& file, const Location& from);
