@@ -5,7 +5,7 @@
 
 #include "lobelia/base/random.h"
 #include "lobelia/base/sampling.h"
-#include "lobelia/io/closed_room.h"
+#include "lobelia/builtin/closed_room.h"
 #include "lobelia/lights/virtual_lights.h"
 #include "lobelia/path/receivers.h"
 #include "lobelia/trace/tracer.h"
@@ -14,7 +14,7 @@ namespace lobelia::benchmark_support {
 
 class Room {
  public:
-  Room() : scene_(io::closedRoom(io::RoomKind::diffuse)), tracer_(scene_, context_) {}
+  Room() : scene_(builtin::closedRoom(builtin::RoomKind::diffuse)), tracer_(scene_, context_) {}
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
 

@@ -12,15 +12,15 @@
 #include "lobelia/app/bench_rays.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
-#include "lobelia/io/closed_room.h"
+#include "lobelia/builtin/closed_room.h"
 
 namespace lobelia {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 240, kSamples = 4;
 
-void path(benchmark::State& state, io::RoomKind kind) {
-  Scene scene = io::closedRoom(kind);
+void path(benchmark::State& state, builtin::RoomKind kind) {
+  Scene scene = builtin::closedRoom(kind);
   scene.cameras[0].width = kWidth, scene.cameras[0].height = kHeight;
   Context context;
   const Tracer tracer(scene, context);
@@ -61,11 +61,11 @@ void path(benchmark::State& state, io::RoomKind kind) {
   state.counters["of_bare_cpu"] = (pathRays / pathCpu) / (bareRays / bareCpu);
   state.counters["of_bare"] = (pathRays / pathSeconds) / (bareRays / bareSeconds);
 }
-BENCHMARK_CAPTURE(path, diffuse, io::RoomKind::diffuse)
+BENCHMARK_CAPTURE(path, diffuse, builtin::RoomKind::diffuse)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(path, mixed, io::RoomKind::mixed)->UseManualTime()->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(path, manyLights, io::RoomKind::manyLights)
+BENCHMARK_CAPTURE(path, mixed, builtin::RoomKind::mixed)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(path, manyLights, builtin::RoomKind::manyLights)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
@@ -77,7 +77,7 @@ Scene shiningCeiling(int64_t cells) {
   emitter.type = EmitterType::area;
   emitter.radiance = Rgb(1);
   scene.emitters.push_back(emitter);
-  scene.meshes.push_back(io::wavyWall({-2, -2, 1}, {0, 4, 0}, {4, 0, 0}, {0, 0, -1},
+  scene.meshes.push_back(builtin::wavyWall({-2, -2, 1}, {0, 4, 0}, {4, 0, 0}, {0, 0, -1},
                                       static_cast<uint32_t>(cells), 0.1f));
   Instance instance;
   instance.mesh = {0};

@@ -16,7 +16,7 @@
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
 #include "lobelia/base/sampling.h"
-#include "lobelia/io/closed_room.h"
+#include "lobelia/builtin/closed_room.h"
 #include "lobelia/trace/accel.h"
 #include "lobelia/trace/tracer.h"
 
@@ -29,7 +29,7 @@ constexpr size_t kPackets = 1 << 15;
 using Point = app::PointNormal;
 
 struct Room {
-  Scene scene = io::closedRoom(io::RoomKind::diffuse);
+  Scene scene = builtin::closedRoom(builtin::RoomKind::diffuse);
   Context context;
   Tracer tracer{scene, context};
   embree::Accel accel{scene, context};

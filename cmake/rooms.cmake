@@ -1,9 +1,13 @@
 # One target per room (docs/architecture.md): lobelia_room(NAME ROOMS ... LIBRARIES ...).
 # ROOMS names the rooms that this one may include; scripts/check-rooms proves that none is
-# included that is not named here or reached through one that is.
+# included that is not named here or reached through one that is. FOLDERS: folders within the room.
 function(lobelia_room name)
-  cmake_parse_arguments(ROOM "" "" "ROOMS;LIBRARIES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "ROOMS;FOLDERS;LIBRARIES;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  foreach(folder IN LISTS ROOM_FOLDERS)
+    file(GLOB more CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/${folder}/*.cpp)
+    list(APPEND sources ${more})
+  endforeach()
   if(NOT sources)
     return()
   endif()

@@ -1,8 +1,7 @@
 // The document layer: includes, parameters, ids, places, malformed files.
-#include "lobelia/io/mitsuba_xml.h"
-
 #include "io/mitsuba_scene.h"
 #include "lobelia/base/random.h"
+#include "lobelia/io/mitsuba/xml.h"
 
 namespace lobelia {
 namespace {

@@ -14,6 +14,7 @@
 #include "lobelia/app/commands.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/render.h"
+#include "lobelia/builtin/builtin_scenes.h"
 #include "lobelia/io/scene_io.h"
 #include "lobelia/version.h"
 
@@ -61,7 +62,7 @@ struct CommandLine {
         app.add_subcommand("methods", "Light models, gather strategies, what combines");
     sceneCommand =
         app.add_subcommand("scene", fmt::format("Write a built-in scene as Mitsuba XML: {}",
-                                                fmt::join(io::builtinSceneNames(), ", ")));
+                                                fmt::join(builtin::builtinSceneNames(), ", ")));
     addSceneOptions(*sceneCommand, scene.scene);
     sceneCommand->add_option("-o,--output", scene.folder, "Folder to write")->required();
     convertCommand = app.add_subcommand("convert", "Write any readable scene as Mitsuba XML");
@@ -97,7 +98,7 @@ struct CommandLine {
     if (*compareCommand) return compareImages(compare);
     if (*infoCommand) return app::info(info, global);
     if (*sceneCommand) {
-      const std::vector<std::string> names = io::builtinSceneNames();
+      const std::vector<std::string> names = builtin::builtinSceneNames();
       if (std::find(names.begin(), names.end(), scene.scene.scene) == names.end()) {
         throw UsageError(fmt::format("'{}' is not a built-in scene; there are {}{}",
                                      scene.scene.scene, fmt::join(names, ", "),

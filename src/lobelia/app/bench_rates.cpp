@@ -16,7 +16,7 @@
 #include "lobelia/app/load_scene.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/gather/gather.h"
-#include "lobelia/io/closed_room.h"
+#include "lobelia/builtin/closed_room.h"
 #include "lobelia/lights/light_pass.h"
 
 namespace lobelia::app {
@@ -344,8 +344,8 @@ VirtualLights onlyGlossy(VirtualLights lights) {
   return lights;
 }
 
-std::unique_ptr<RateScene> room(io::RoomKind kind, const BenchOptions& options, Context& context) {
-  return std::make_unique<RateScene>(io::closedRoom(kind, options.scene.detail), options, context);
+std::unique_ptr<RateScene> room(builtin::RoomKind kind, const BenchOptions& options, Context& context) {
+  return std::make_unique<RateScene>(builtin::closedRoom(kind, options.scene.detail), options, context);
 }
 
 }  // namespace
@@ -369,11 +369,11 @@ std::vector<BenchTable> benchRates(const BenchOptions& options, Context& context
                 {"glossy", "the scene's", &receivers[0], onlyGlossy(lights)}};
     paths = {{options.scene.scene, scene.get()}};
   } else {
-    scene = room(io::RoomKind::diffuse, options, context);
-    ggx = room(io::RoomKind::ggx, options, context);
-    plastic = room(io::RoomKind::plastic, options, context);
-    mixed = room(io::RoomKind::mixed, options, context);
-    manyLights = room(io::RoomKind::manyLights, options, context);
+    scene = room(builtin::RoomKind::diffuse, options, context);
+    ggx = room(builtin::RoomKind::ggx, options, context);
+    plastic = room(builtin::RoomKind::plastic, options, context);
+    mixed = room(builtin::RoomKind::mixed, options, context);
+    manyLights = room(builtin::RoomKind::manyLights, options, context);
     for (const RateScene* s : {scene.get(), ggx.get(), plastic.get()})
       receivers.push_back(s->receivers(context));
     const VirtualLights diffuse = onlyDiffuse(scene->lights(lightCount, context)),

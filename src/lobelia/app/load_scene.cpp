@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lobelia/builtin/builtin_scenes.h"
 #include "lobelia/io/scene_io.h"
 
 namespace lobelia::app {
@@ -20,6 +21,9 @@ io::ReadSettings readSettings(const SceneOptions& options) {
   io::ReadSettings settings;
   settings.strict = options.strict;
   settings.environment = options.environment;
+  settings.sky = options.sky;
+  settings.time = options.time;
+  settings.variant = options.variant;
   for (const std::string& definition : options.definitions) {
     const size_t equals = definition.find('=');
     if (equals == std::string::npos || equals == 0) {
@@ -33,7 +37,7 @@ io::ReadSettings readSettings(const SceneOptions& options) {
 // A file goes before a built-in scene of the same name.
 bool isBuiltin(const std::string& name) {
   if (std::filesystem::exists(name)) return false;
-  const std::vector<std::string> names = io::builtinSceneNames();
+  const std::vector<std::string> names = builtin::builtinSceneNames();
   if (std::find(names.begin(), names.end(), name) != names.end()) return true;
   if (std::filesystem::path(name).has_extension()) return false;
   throw InputError({}, fmt::format("'{}' is neither a file nor a built-in scene; there are {}{}",
@@ -66,7 +70,7 @@ Scene loadScene(const SceneOptions& options, Context& context) {
   Scene scene;
   if (isBuiltin(options.scene)) {
     if (!settings.definitions.empty()) throw UsageError("-D: built-in scenes have no definitions");
-    scene = io::builtinScene(options.scene, options.detail);
+    scene = builtin::builtinScene(options.scene, options.detail);
     io::applyEnvironment(scene, settings);
   } else {
     scene = io::readScene(options.scene, settings, context);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lobelia/base/transform.h"
 
@@ -14,6 +15,12 @@ struct Ray {
 
 enum class CameraType : uint8_t { perspective, orthographic };
 enum class PixelFilter : uint8_t { box, tent, gaussian, mitchell, catmullRom, lanczos };
+
+// A camera's place at a time, for camera paths.
+struct CameraKey {
+  float time = 0;  // seconds
+  Transform toWorld;
+};
 
 struct Camera {
   std::string name;
@@ -28,6 +35,7 @@ struct Camera {
   PixelFilter filter = PixelFilter::gaussian;
   float filterRadius = 0;  // 0: the filter's default
   int spp = 0;             // hint of the scene file, 0: none
+  std::vector<CameraKey> path;  // by time; empty: it stands still at toWorld
 };
 
 // Ray through a film position (pixels, (0,0) the top left corner of the full film).

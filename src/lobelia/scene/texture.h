@@ -22,7 +22,12 @@ struct Image {
 
 enum class Wrap : uint8_t { repeat, mirror, clamp, zero, one };
 enum class Filter : uint8_t { nearest, bilinear };
-enum class TextureType : uint8_t { constant, bitmap, checkerboard, scale, meshAttribute };
+enum class TextureType : uint8_t {
+  constant, bitmap, checkerboard, scale, meshAttribute,
+  product,  // a b
+  mix,      // a (1 - c) + b c
+  power,    // a^scale
+};
 
 // What a texture may depend on at a hit.
 struct TextureContext {
@@ -43,9 +48,11 @@ struct Texture {
   Wrap wrap = Wrap::repeat;
   bool alphaChannel = false;    // bitmap used as opacity: read the image's alpha when it has one
   float uvMatrix[2][3] = {{1, 0, 0}, {0, 1, 0}};  // uv' = M (u,v,1)
-  TextureHandle a, b;           // checkerboard: its two colours; scale: a
-  float scale = 1;              // scale
-  std::string attribute;        // meshAttribute: "vertex_color", "face_x"...
+  int channel = -1;             // bitmap, meshAttribute: only this channel, as grey; -1: colour
+  TextureHandle a, b, c;        // checkerboard: its two colours a, b; scale, power: a
+  float scale = 1;              // scale: factor; power: exponent
+  // meshAttribute: "vertex_color", "face_x"...; bitmap: where uv come from when not empty ("vertex_uv1")
+  std::string attribute;
 };
 
 // A parameter: a constant, or a texture when `texture` is valid.

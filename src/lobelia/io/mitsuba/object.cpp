@@ -1,6 +1,6 @@
 // Typed access to the properties of an object of a Mitsuba scene, strict numbers, and transforms.
 
-#include "lobelia/io/mitsuba_object.h"
+#include "lobelia/io/mitsuba/object.h"
 
 #include <charconv>
 

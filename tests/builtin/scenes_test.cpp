@@ -6,7 +6,8 @@
 #include <set>
 
 #include "io/temporary_folder.h"
-#include "lobelia/io/builtin_shapes.h"
+#include "lobelia/builtin/builtin_scenes.h"
+#include "lobelia/builtin/shapes.h"
 #include "lobelia/io/scene_io.h"
 
 namespace lobelia {
@@ -67,7 +68,7 @@ TEST(BuiltinShapes, RevolvedSphere) {
   const auto profile = [](float t) {
     return Vec2f(t <= 0 || t >= 1 ? 0 : std::sin(kPi * t), -std::cos(kPi * t));
   };
-  const Mesh mesh = io::revolve(profile, 64, 128);
+  const Mesh mesh = builtin::revolve(profile, 64, 128);
   expectSound(mesh, 0.99f);
   EXPECT_TRUE(isClosed(mesh));
   EXPECT_NEAR(volume(mesh), 4 * M_PI / 3, 0.01);
@@ -76,8 +77,8 @@ TEST(BuiltinShapes, RevolvedSphere) {
 }
 
 TEST(BuiltinShapes, TorusKnotIsAClosedTube) {
-  io::TorusKnot knot;
-  const Mesh mesh = io::torusKnot(knot, 600, 48);
+  builtin::TorusKnot knot;
+  const Mesh mesh = builtin::torusKnot(knot, 600, 48);
   expectSound(mesh, 0.98f);
   EXPECT_TRUE(isClosed(mesh));
   // By Pappus, area and volume follow from the length of the curve, whatever its shape.
@@ -95,7 +96,7 @@ TEST(BuiltinShapes, TorusKnotIsAClosedTube) {
 
 TEST(BuiltinShapes, RoundedBoxIsClosedAndOfTheRightVolume) {
   const double r = 0.1, x = 1, y = 0.5, z = 0.25;
-  const Mesh mesh = io::roundedBox({1, 0.5f, 0.25f}, 0.1f, 8);
+  const Mesh mesh = builtin::roundedBox({1, 0.5f, 0.25f}, 0.1f, 8);
   expectSound(mesh, 0.99f);
   const double a = 2 * (x - r), b = 2 * (y - r), c = 2 * (z - r);
   // Steiner's formula for the box a b c thickened by r.
@@ -107,7 +108,7 @@ TEST(BuiltinShapes, RoundedBoxIsClosedAndOfTheRightVolume) {
 TEST(Cornell, IsAValidSceneAtEveryDetail) {
   size_t previous = 0;
   for (const float detail : {0.05f, 0.25f, 1.f}) {
-    const Scene scene = io::builtinScene("cornell", detail);
+    const Scene scene = builtin::builtinScene("cornell", detail);
     EXPECT_EQ(scene.name, "cornell");
     for (const Finding& f : validate(scene)) ADD_FAILURE() << f.message;
     const uint64_t count = triangleCount(scene);
@@ -127,7 +128,7 @@ TEST(Cornell, IsAValidSceneAtEveryDetail) {
 }
 
 TEST(Cornell, EverythingIsInsideTheRoomAndSeen) {
-  const Scene scene = io::builtinScene("cornell", 0.5f);
+  const Scene scene = builtin::builtinScene("cornell", 0.5f);
   for (const Instance& instance : scene.instances)
     for (const Vec3f local : scene[instance.mesh].positions) {
       const Vec3f p = instance.toWorld.point(local);
@@ -146,16 +147,16 @@ TEST(Cornell, EverythingIsInsideTheRoomAndSeen) {
 }
 
 TEST(BuiltinScenes, UnknownNamesAndDetailsAreUsageErrors) {
-  ASSERT_FALSE(io::builtinSceneNames().empty());
-  EXPECT_EQ(io::builtinSceneNames().front(), "cornell");
-  for (const std::string& name : io::builtinSceneNames()) {
-    const Scene scene = io::builtinScene(name, 0.1f);
+  ASSERT_FALSE(builtin::builtinSceneNames().empty());
+  EXPECT_EQ(builtin::builtinSceneNames().front(), "cornell");
+  for (const std::string& name : builtin::builtinSceneNames()) {
+    const Scene scene = builtin::builtinScene(name, 0.1f);
     EXPECT_TRUE(validate(scene).empty()) << name << ": " << validate(scene)[0].message;
   }
-  const std::string message = messageOf<UsageError>([] { io::builtinScene("cornel", 1); });
+  const std::string message = messageOf<UsageError>([] { builtin::builtinScene("cornel", 1); });
   EXPECT_TRUE(contains(message, "cornell")) << message;
   for (const float detail : {0.f, -1.f, 1e9f, std::numeric_limits<float>::quiet_NaN()})
-    EXPECT_THROW(io::builtinScene("cornell", detail), UsageError);
+    EXPECT_THROW(builtin::builtinScene("cornell", detail), UsageError);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 // Deviations: principledthin is read as principled with a warning; mixturebsdf becomes a chain of
 // blends, its missing weight a black layer; "as" (Ashikhmin-Shirley) is read as phong.
 
-#include "lobelia/io/mitsuba_reader.h"
+#include "lobelia/io/mitsuba/reader.h"
 #include "lobelia/io/optical_constants.h"
 
 namespace lobelia::io::mitsuba {

@@ -1,6 +1,6 @@
 // The top level of a Mitsuba scene.
 
-#include "lobelia/io/mitsuba_reader.h"
+#include "lobelia/io/mitsuba/reader.h"
 
 #include <filesystem>
 

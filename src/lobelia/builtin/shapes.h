@@ -1,4 +1,4 @@
-// Procedural meshes of the built-in scenes (internal to io). y is up; normals are exact.
+// Procedural meshes of the built-in scenes (internal to this room). y is up; normals are exact.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,7 @@
 
 #include "lobelia/scene/mesh.h"
 
-namespace lobelia::io {
+namespace lobelia::builtin {
 
 // Box of the given half extents around the origin, its edges and corners rounded with `radius`,
 // `segments` per 45 degrees. Each face covers [0,1]^2 of the uv plane.
@@ -28,4 +28,4 @@ struct TorusKnot {
 };
 Mesh torusKnot(const TorusKnot& knot, int along, int around);
 
-}  // namespace lobelia::io
+}  // namespace lobelia::builtin

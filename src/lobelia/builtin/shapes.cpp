@@ -1,9 +1,9 @@
-#include "lobelia/io/builtin_shapes.h"
+#include "lobelia/builtin/shapes.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace lobelia::io {
+namespace lobelia::builtin {
 namespace {
 
 void addVertex(Mesh& mesh, Vec3f p, Vec3f n, Vec2f uv) {
@@ -138,4 +138,4 @@ Mesh torusKnot(const TorusKnot& knot, int along, int around) {
   return mesh;
 }
 
-}  // namespace lobelia::io
+}  // namespace lobelia::builtin

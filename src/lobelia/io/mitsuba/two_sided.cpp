@@ -1,7 +1,7 @@
 // Scenes of version 0.x that never say `twosided` but come from renderers whose surfaces reflect on
 // both sides: their walls face any way. Mitsuba 0.6 would show backs black, which nobody who wrote
 // such a scene has seen. They are shaded from both sides, and the reader says so.
-#include "lobelia/io/mitsuba_reader.h"
+#include "lobelia/io/mitsuba/reader.h"
 
 namespace lobelia::io::mitsuba {
 namespace {

@@ -32,7 +32,7 @@ class Writer {
  private:
   using Node = pugi::xml_node;
 
-  // mitsuba_writer_materials.cpp
+  // writer_materials.cpp
   void writeTextures();
   void writeMaterials();
   Node textureNode(Node parent, const Texture& texture, const std::string& id);
@@ -49,7 +49,7 @@ class Writer {
   void materialProperties(Node node, const Material& material);
   void principled(Node node, const Material& material);
 
-  // mitsuba_writer.cpp
+  // writer.cpp
   void writeIntegrator();
   void writeCameras();
   void writeFilm(Node sensor, const Camera& camera);

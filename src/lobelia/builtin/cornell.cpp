@@ -7,16 +7,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lobelia/io/builtin_scenes.h"
-#include "lobelia/io/builtin_shapes.h"
+#include "lobelia/builtin/makers.h"
+#include "lobelia/builtin/scene_builder.h"
+#include "lobelia/builtin/shapes.h"
 #include "lobelia/io/mesh_io.h"
 
-namespace lobelia::io {
+namespace lobelia::builtin {
 namespace {
 
-class Box {
+class Box : SceneBuilder {
  public:
-  explicit Box(float detail) : detail_(detail) {}
+  using SceneBuilder::SceneBuilder;
 
   Scene make() {
     addRoom();
@@ -25,89 +26,27 @@ class Box {
     addVase();
     addBalls();
     addCamera();
-    scene_.integrator = "path";
-    scene_.maxDepth = 12;
-    return std::move(scene_);
+    scene().integrator = "path";
+    scene().maxDepth = 12;
+    return take();
   }
 
  private:
-  // Number of segments at detail 1, scaled, and never so few that the shape collapses.
-  int segments(int atDetailOne, int least) const {
-    return std::max(least,
-                    static_cast<int>(std::lround(static_cast<float>(atDetailOne) * detail_)));
-  }
-  MaterialHandle add(Material material, const char* name) {
-    material.name = name;
-    scene_.materials.push_back(std::move(material));
-    return {static_cast<uint32_t>(scene_.materials.size() - 1)};
-  }
-  TextureHandle add(Texture texture) {
-    scene_.textures.push_back(std::move(texture));
-    return {static_cast<uint32_t>(scene_.textures.size() - 1)};
-  }
-  MeshHandle add(Mesh mesh, const char* name) {
-    mesh.name = name;
-    scene_.meshes.push_back(std::move(mesh));
-    return {static_cast<uint32_t>(scene_.meshes.size() - 1)};
-  }
-  void place(MeshHandle mesh, const Mat4& toWorld, MaterialHandle material, const char* name,
-             EmitterHandle emitter = {}) {
-    Instance instance;
-    instance.mesh = mesh;
-    instance.toWorld = Transform(toWorld);
-    instance.material = material;
-    instance.emitter = emitter;
-    instance.name = name;
-    scene_.instances.push_back(std::move(instance));
-  }
-  static Material diffuse(ColorParam color) {
-    Material m;
-    m.type = MaterialType::diffuse;
-    m.diffuse = color;
-    return m;
-  }
-  static Material coated(ColorParam color, float alpha) {
-    Material m;
-    m.type = MaterialType::roughPlastic;
-    m.diffuse = color;
-    m.ior = 1.5f;
-    m.distribution = Distribution::ggx;
-    m.alphaU = m.alphaV = alpha;
-    m.nonlinear = true;
-    return m;
-  }
-  static Material metal(Rgb eta, Rgb k, float alpha) {
-    Material m;
-    m.type = MaterialType::roughConductor;
-    m.eta = eta, m.k = k;
-    m.distribution = Distribution::ggx;
-    m.alphaU = m.alphaV = alpha;
-    return m;
-  }
   Mesh ball() const {
     return revolve(
         [](float t) { return Vec2f(t <= 0 || t >= 1 ? 0 : std::sin(kPi * t), -std::cos(kPi * t)); },
         segments(40, 8), segments(80, 12));
   }
-  // Translation that puts a mesh, turned by `turn`, onto the height y.
-  Mat4 standing(const Mesh& mesh, const Mat4& turn, Vec3d at) const {
-    Bounds3f bounds;
-    for (const Vec3f p : mesh.positions) bounds.add(turn.point(p));
-    return translation({at.x, at.y - static_cast<double>(bounds.lo.y), at.z}) * turn;
-  }
-
   void addRoom() {
-    Texture light, dark, tiles;
-    light.value = {0.60f, 0.56f, 0.50f};
-    dark.value = {0.14f, 0.13f, 0.13f};
+    Texture tiles;
     tiles.type = TextureType::checkerboard;
-    tiles.a = add(light), tiles.b = add(dark);
+    tiles.a = add(Rgb(0.60f, 0.56f, 0.50f)), tiles.b = add(Rgb(0.14f, 0.13f, 0.13f));
     tiles.uvMatrix[0][0] = tiles.uvMatrix[1][1] = 4;  // 8 x 8 tiles
     const MaterialHandle floor = add(coated(add(tiles), 0.13f), "polished tiles");
     const MaterialHandle white = add(diffuse(Rgb(0.74f, 0.71f, 0.66f)), "white wall");
     const MaterialHandle red = add(diffuse(Rgb(0.60f, 0.055f, 0.045f)), "red wall");
     const MaterialHandle green = add(diffuse(Rgb(0.105f, 0.42f, 0.095f)), "green wall");
-    square_ = add(unitRectangle(), "square");
+    square_ = add(io::unitRectangle(), "square");
     const Vec3d x{1, 0, 0}, y{0, 1, 0};
     place(square_, rotation(x, -90), floor, "floor");
     place(square_, translation({0, 2, 0}) * rotation(x, 90), white, "ceiling");
@@ -120,16 +59,14 @@ class Box {
     constexpr double kHalfX = 0.36, kHalfZ = 0.30, kDrop = 0.03;
     Emitter emitter;
     emitter.type = EmitterType::area;
-    emitter.name = "lamp";
     emitter.radiance = Rgb(21.f, 16.5f, 11.4f);
-    scene_.emitters.push_back(emitter);
+    const EmitterHandle lamp = add(emitter, "lamp");
     const MaterialHandle black = add(diffuse(Rgb(0.f)), "lamp glass");
     place(
         square_,
         translation({0, 2 - kDrop / 2, 0}) * rotation({1, 0, 0}, 90) * scaling({kHalfX, kHalfZ, 1}),
-        black, "lamp", {0});
-    const MaterialHandle frame =
-        add(metal({2.9f, 2.9f, 2.5f}, {3.1f, 3.2f, 3.0f}, 0.3f), "lamp frame");
+        black, "lamp", lamp);
+    const MaterialHandle frame = add(metal(kSteel, 0.3f), "lamp frame");
     const double bar = 0.02;
     const auto barMesh = [&](double half) {
       return roundedBox(
@@ -153,9 +90,7 @@ class Box {
     place(add(roundedBox(half, 0.025f, segments(6, 1)), "block"),
           translation(at + Vec3d(0, static_cast<double>(half.y), 0)) * rotation({0, 1, 0}, -18),
           lacquer, "block");
-    // Refractive index of gold at red, green and blue.
-    const MaterialHandle gold =
-        add(metal({0.1431f, 0.3749f, 1.4424f}, {3.9831f, 2.3857f, 1.6032f}, 0.2f), "gold");
+    const MaterialHandle gold = add(metal(kGold, 0.2f), "gold");
     TorusKnot knot;
     knot.ring = 0.215f, knot.wind = 0.092f, knot.tube = 0.056f;
     const Mesh mesh = torusKnot(knot, segments(360, 48), segments(28, 8));
@@ -180,12 +115,8 @@ class Box {
   }
 
   void addBalls() {
-    Material glass;
-    glass.type = MaterialType::dielectric;
-    glass.ior = 1.5f;
-    const MaterialHandle clear = add(glass, "glass");
-    const MaterialHandle copper =
-        add(metal({0.2004f, 0.9240f, 1.1022f}, {3.9129f, 2.4528f, 2.1421f}, 0.2f), "copper");
+    const MaterialHandle clear = add(glass(), "glass");
+    const MaterialHandle copper = add(metal(kCopper, 0.2f), "copper");
     const MeshHandle mesh = add(ball(), "ball");
     const auto put = [&](double radius, double x, double z, MaterialHandle material,
                          const char* name) {
@@ -205,11 +136,9 @@ class Box {
     camera.focusDistance = 4.9f;
     camera.width = camera.height = 640;
     camera.spp = 64;
-    scene_.cameras.push_back(camera);
+    scene().cameras.push_back(camera);
   }
 
-  float detail_;
-  Scene scene_;
   MeshHandle square_;
 };
 
@@ -217,4 +146,4 @@ class Box {
 
 Scene makeCornell(float detail) { return Box(detail).make(); }
 
-}  // namespace lobelia::io
+}  // namespace lobelia::builtin

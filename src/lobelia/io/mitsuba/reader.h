@@ -1,5 +1,5 @@
 // The reader of Mitsuba scenes: turns the elements of a document into a Scene. One class, one file
-// per kind of object (mitsuba_textures.cpp, _bsdfs, _emitters, _sensors, _shapes).
+// per kind of object (textures.cpp, _bsdfs, _emitters, _sensors, _shapes).
 //
 // Both dialects are read: 0.x files (camelCase) get the defaults of Mitsuba 0.6, others those of
 // Mitsuba 3. What nothing used is a warning (Object::finish); unknown types of shapes, materials,
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lobelia/io/mitsuba_object.h"
+#include "lobelia/io/mitsuba/object.h"
 #include "lobelia/io/scene_io.h"
 #include "lobelia/io/spectrum.h"
 
@@ -27,7 +27,7 @@ class Reader {
  private:
   Object open(const Element& element) const { return {element, document_, findings_}; }
 
-  // mitsuba_textures.cpp
+  // textures.cpp
   TextureHandle texture(const Element& element);
   TextureHandle bitmap(Object& object);
   TextureHandle checkerboard(Object& object);
@@ -47,7 +47,7 @@ class Reader {
   FloatParam scalar(Object& object, const std::string& name, float otherwise);
   TextureHandle scalarTexture(TextureHandle handle);
 
-  // mitsuba_bsdfs.cpp
+  // bsdfs.cpp
   MaterialHandle material(const Element& element);
   MaterialHandle add(Material material);
   Material simpleMaterial(Object& object);
@@ -59,18 +59,18 @@ class Reader {
   void conductor(Object& object, Material* out);
   void roughness(Object& object, Material* out);
 
-  // mitsuba_two_sided.cpp
+  // two_sided.cpp
   void assumeTwoSided();
   MaterialHandle twoSided(MaterialHandle handle);
 
-  // mitsuba_emitters.cpp
+  // emitters.cpp
   void emitter(const Element& element);  // not attached to a shape
   EmitterHandle areaEmitter(const Element& element);
   Emitter environment(Object& object);
   Emitter projector(Object& object);
   EmitterHandle add(Emitter emitter, const Location& where);
 
-  // mitsuba_sensors.cpp
+  // sensors.cpp
   void sensor(const Element& element);
   void film(const Element& element, Camera* out);
   void crop(Object& object, Camera* out);
@@ -81,7 +81,7 @@ class Reader {
   // A hint that uses a parameter without a value: reported, and true.
   bool isUndefinedHint(const Element& element);
 
-  // mitsuba_shapes.cpp
+  // shapes.cpp
   void shape(const Element& element);
   void instance(Object& object);
   const std::vector<Instance>& group(const Element& element);

@@ -5,7 +5,7 @@
 
 #include "lobelia/scene/scene.h"
 
-namespace lobelia::io {
+namespace lobelia::builtin {
 
 // The same geometry in every kind; manyLights has no lamp.
 enum class RoomKind {
@@ -21,4 +21,4 @@ Scene closedRoom(RoomKind kind, float detail = 1);
 // vanish at the border, so that the walls of a room stay closed.
 Mesh wavyWall(Vec3f corner, Vec3f u, Vec3f v, Vec3f n, uint32_t cells, float height);
 
-}  // namespace lobelia::io
+}  // namespace lobelia::builtin

@@ -3,7 +3,7 @@
 //
 // What the format cannot say is left out: textures, materials and area emitters that nothing uses
 // may move or go, radii of the Mitchell and Catmull-Rom filters, names of odd characters.
-#include "lobelia/io/mitsuba_writer.h"
+#include "lobelia/io/mitsuba/writer.h"
 
 #include <fmt/format.h>
 

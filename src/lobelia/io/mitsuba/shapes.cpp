@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "lobelia/io/mesh_io.h"
-#include "lobelia/io/mitsuba_reader.h"
+#include "lobelia/io/mitsuba/reader.h"
 
 namespace lobelia::io::mitsuba {
 namespace {

@@ -1,9 +1,9 @@
-// The makers of the built-in scenes (internal to io).
+// The makers of the built-in scenes (internal to this room).
 #pragma once
 
 #include "lobelia/scene/scene.h"
 
-namespace lobelia::io {
+namespace lobelia::builtin {
 
 Scene makeCornell(float detail);
 Scene makeStudyDiffuse(float detail);
@@ -13,4 +13,4 @@ Scene makeStudyPane(float detail);
 Scene makeStudyMirror(float detail);
 Scene makeStudyRoom(float detail);
 
-}  // namespace lobelia::io
+}  // namespace lobelia::builtin

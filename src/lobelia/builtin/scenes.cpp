@@ -1,12 +1,11 @@
-#include "lobelia/io/builtin_scenes.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "lobelia/io/scene_io.h"
+#include "lobelia/builtin/builtin_scenes.h"
+#include "lobelia/builtin/makers.h"
 
-namespace lobelia::io {
+namespace lobelia::builtin {
 namespace {
 
 struct Builtin {
@@ -14,12 +13,9 @@ struct Builtin {
   Scene (*make)(float detail);
 };
 constexpr Builtin kBuiltins[] = {
-    {"cornell", makeCornell},
-    {"study-diffuse", makeStudyDiffuse},
-    {"study-phong", makeStudyPhong},
-    {"study-ggx", makeStudyGgx},
-    {"study-pane", makeStudyPane},
-    {"study-mirror", makeStudyMirror},
+    {"cornell", makeCornell},        {"study-diffuse", makeStudyDiffuse},
+    {"study-phong", makeStudyPhong}, {"study-ggx", makeStudyGgx},
+    {"study-pane", makeStudyPane},   {"study-mirror", makeStudyMirror},
     {"study-room", makeStudyRoom},
 };
 
@@ -45,4 +41,4 @@ Scene builtinScene(const std::string& name, float detail) {
                                suggestion(name, names), fmt::join(names, ", ")));
 }
 
-}  // namespace lobelia::io
+}  // namespace lobelia::builtin

@@ -1,6 +1,6 @@
 // The tables follow the manuals of Mitsuba 0.6 and Mitsuba 3 (scene format).
 
-#include "lobelia/io/mitsuba_tags.h"
+#include "lobelia/io/mitsuba/tags.h"
 
 namespace lobelia::io::mitsuba {
 

@@ -7,7 +7,7 @@
 // the sampler are hints), an unknown element is a warning, and files are also sought beside the XML
 // file that names them.
 
-#include "lobelia/io/mitsuba_xml.h"
+#include "lobelia/io/mitsuba/xml.h"
 
 #include <algorithm>
 #include <cctype>
@@ -18,7 +18,7 @@
 #include <set>
 #include <sstream>
 
-#include "lobelia/io/mitsuba_tags.h"
+#include "lobelia/io/mitsuba/tags.h"
 
 namespace lobelia::io::mitsuba {
 namespace {

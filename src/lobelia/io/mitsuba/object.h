@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lobelia/base/transform.h"
-#include "lobelia/io/mitsuba_xml.h"
+#include "lobelia/io/mitsuba/xml.h"
 
 namespace lobelia::io::mitsuba {
 

@@ -1,6 +1,6 @@
 // Emitters of Mitsuba scenes: area, point, spot, directional, constant, envmap, projector.
 
-#include "lobelia/io/mitsuba_reader.h"
+#include "lobelia/io/mitsuba/reader.h"
 
 namespace lobelia::io::mitsuba {
 namespace {

@@ -1,10 +1,10 @@
-#include "lobelia/io/closed_room.h"
+#include "lobelia/builtin/closed_room.h"
 
 #include <cmath>
 
 #include "lobelia/base/random.h"
 
-namespace lobelia::io {
+namespace lobelia::builtin {
 namespace {
 
 constexpr size_t kWalls = 6;
@@ -145,4 +145,4 @@ Scene closedRoom(RoomKind kind, float detail) {
   return scene;
 }
 
-}  // namespace lobelia::io
+}  // namespace lobelia::builtin

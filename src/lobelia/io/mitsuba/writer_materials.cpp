@@ -6,7 +6,7 @@
 
 #include "lobelia/io/image_io.h"
 #include "lobelia/io/image_pixels.h"
-#include "lobelia/io/mitsuba_writer.h"
+#include "lobelia/io/mitsuba/writer.h"
 
 namespace lobelia::io::mitsuba {
 namespace {

@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lobelia/io/builtin_scenes.h"
-#include "lobelia/io/builtin_shapes.h"
-#include "lobelia/io/closed_room.h"
+#include "lobelia/builtin/closed_room.h"
+#include "lobelia/builtin/makers.h"
+#include "lobelia/builtin/shapes.h"
 #include "lobelia/io/mesh_io.h"
 
-namespace lobelia::io {
+namespace lobelia::builtin {
 namespace {
 
 Material diffuse(Rgb color) {
@@ -86,7 +86,7 @@ class StudyBox {
     emitter.name = "lamp";
     emitter.radiance = radiance;
     scene_.emitters.push_back(emitter);
-    add(unitRectangle(), toWorld, diffuse(Rgb(0.f)), "lamp");
+    add(io::unitRectangle(), toWorld, diffuse(Rgb(0.f)), "lamp");
     scene_.instances.back().emitter = {0};
   }
   void addCeilingLamp() {
@@ -157,7 +157,8 @@ Scene makeStudyPane(float detail) {
   StudyBox box(detail);
   box.addRoom(diffuse(kGrey), diffuse(kRed), diffuse(kBlue), true);
   box.addLamp(translation({-1.6, 0, 0}) * rotation({0, 1, 0}, 90) * scaling(Vec3d(0.8)), Rgb(6.f));
-  box.add(unitCube(), translation({-1.06, 0, 0}) * scaling({0.02, 0.85, 0.85}), glass(), "pane");
+  box.add(io::unitCube(), translation({-1.06, 0, 0}) * scaling({0.02, 0.85, 0.85}), glass(),
+          "pane");
   return box.finish();
 }
 
@@ -165,11 +166,11 @@ Scene makeStudyMirror(float detail) {
   StudyBox box(detail);
   box.addRoom(diffuse(kGrey), diffuse(kRed), diffuse(kBlue), false);
   box.addCeilingLamp();
-  box.add(unitRectangle(), translation({0, 0, -0.85}) * scaling({0.6, 0.6, 1}), metal(Rgb(0.9f), 0),
-          "mirror");
+  box.add(io::unitRectangle(), translation({0, 0, -0.85}) * scaling({0.6, 0.6, 1}),
+          metal(Rgb(0.9f), 0), "mirror");
   return box.finish();
 }
 
 Scene makeStudyRoom(float detail) { return closedRoom(RoomKind::mixed, detail); }
 
-}  // namespace lobelia::io
+}  // namespace lobelia::builtin

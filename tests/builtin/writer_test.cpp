@@ -2,6 +2,7 @@
 
 #include "io/scene_text.h"
 #include "io/temporary_folder.h"
+#include "lobelia/builtin/builtin_scenes.h"
 #include "lobelia/io/image_io.h"
 #include "lobelia/io/mesh_io.h"
 #include "lobelia/io/scene_io.h"
@@ -31,7 +32,7 @@ Scene expectSame(const Scene& scene, const std::string& folder) {
 
 TEST(MitsubaWriter, CornellComesBackBitForBit) {
   const TemporaryFolder folder;
-  const Scene scene = io::builtinScene("cornell", 0.2f);
+  const Scene scene = builtin::builtinScene("cornell", 0.2f);
   const Scene copy = expectSame(scene, folder.path("cornell"));
   EXPECT_EQ(copy.name, "cornell");
   EXPECT_EQ(copy.meshes.size(), scene.meshes.size());
@@ -288,7 +289,7 @@ TEST(MitsubaWriter, WritingTwiceGivesTheSameBytes) {
 TEST(MitsubaWriter, UnwritableFoldersAreRuntimeErrors) {
   const TemporaryFolder folder;
   folder.write("file", "x");
-  const Scene scene = io::builtinScene("cornell", 0.05f);
+  const Scene scene = builtin::builtinScene("cornell", 0.05f);
   const std::string target = folder.path("file/scene");
   EXPECT_TRUE(contains(messageOf<RuntimeError>([&] { io::writeMitsuba(target, scene); }), target));
 }

@@ -6,7 +6,7 @@
 
 #include "lobelia/film/film.h"
 #include "lobelia/io/image_io.h"
-#include "lobelia/io/mitsuba_reader.h"
+#include "lobelia/io/mitsuba/reader.h"
 
 namespace lobelia::io::mitsuba {
 namespace {

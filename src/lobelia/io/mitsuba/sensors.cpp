@@ -1,7 +1,7 @@
 // Sensors of Mitsuba scenes (perspective, thinlens, orthographic), their films, and the hints: the
 // integrator and the sampler, of which nothing prevents rendering.
 
-#include "lobelia/io/mitsuba_reader.h"
+#include "lobelia/io/mitsuba/reader.h"
 
 namespace lobelia::io::mitsuba {
 namespace {
