@@ -59,6 +59,55 @@ void uvTransform(pugi::xml_node node, const Texture& t) {
   property(node, "float", "voffset", text(m[1][2]));
 }
 
+// The name of the plugin, ours where Mitsuba has none.
+const char* pluginName(MaterialType type) {
+  switch (type) {
+    case MaterialType::diffuse:
+      return "diffuse";
+    case MaterialType::conductor:
+      return "conductor";
+    case MaterialType::roughConductor:
+      return "roughconductor";
+    case MaterialType::dielectric:
+      return "dielectric";
+    case MaterialType::thinDielectric:
+      return "thindielectric";
+    case MaterialType::roughDielectric:
+      return "roughdielectric";
+    case MaterialType::plastic:
+      return "plastic";
+    case MaterialType::roughPlastic:
+      return "roughplastic";
+    case MaterialType::principled:
+      return "principled";
+    case MaterialType::phong:
+      return "phong";
+    case MaterialType::ward:
+      return "ward";
+    case MaterialType::diffuseTransmitter:
+      return "difftrans";
+    case MaterialType::metallicRoughness:
+      return "metallicroughness";
+    case MaterialType::coatedConductor:
+      return "coatedconductor";
+    case MaterialType::sphericalGaussians:
+      return "sphericalgaussians";
+    case MaterialType::twoSided:
+      return "twosided";
+    case MaterialType::mask:
+      return "mask";
+    case MaterialType::blend:
+      return "blendbsdf";
+    case MaterialType::bump:
+      return "bumpmap";
+    case MaterialType::normalMap:
+      return "normalmap";
+    case MaterialType::null:
+      break;
+  }
+  return "null";
+}
+
 }  // namespace
 
 void Writer::writeImages() {
@@ -183,19 +232,11 @@ pugi::xml_node Writer::textureNode(Node parent, const Texture& t, const std::str
 }
 
 void Writer::writeMaterials() {
-  constexpr const char* kTypes[] = {"diffuse",    "conductor",      "roughconductor",
-                                    "dielectric", "thindielectric", "roughdielectric",
-                                    "plastic",    "roughplastic",   "principled",
-                                    "phong",      "ward",           "difftrans",
-                                    "twosided",   "mask",           "blendbsdf",
-                                    "bumpmap",    "normalmap",      "null"};
   for (const Material& material : scene_.materials)
     materialIds_.push_back(ids_.make(material.name, "material"));
   for (size_t i = 0; i < scene_.materials.size(); ++i) {
     const Material& material = scene_.materials[i];
-    materialProperties(
-        object(root_, "bsdf", kTypes[static_cast<size_t>(material.type)], materialIds_[i]),
-        material);
+    materialProperties(object(root_, "bsdf", pluginName(material.type), materialIds_[i]), material);
   }
 }
 
