@@ -1,4 +1,6 @@
+// The table of built-in scenes.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -8,29 +10,30 @@
 namespace lobelia::builtin {
 namespace {
 
-struct Builtin {
-  const char* name;
-  Scene (*make)(float detail);
-};
-constexpr Builtin kBuiltins[] = {
-    {"cornell", makeCornell},        {"study-diffuse", makeStudyDiffuse},
-    {"study-phong", makeStudyPhong}, {"study-ggx", makeStudyGgx},
-    {"study-pane", makeStudyPane},   {"study-mirror", makeStudyMirror},
-    {"study-room", makeStudyRoom},
+constexpr BuiltinScene kBuiltins[] = {
+    {"cornell", makeCornell, 51288, "A glossy Cornell box with a golden knot"},
+    {"study-diffuse", makeStudyDiffuse, 9966, "Rounded box for studies: Lambert"},
+    {"study-phong", makeStudyPhong, 9966, "Rounded box for studies: Phong"},
+    {"study-ggx", makeStudyGgx, 9966, "Rounded box for studies: GGX metals and lacquer"},
+    {"study-pane", makeStudyPane, 9976, "Rounded box for studies: lit through a glass pane"},
+    {"study-mirror", makeStudyMirror, 9968, "Rounded box for studies: with a mirror"},
+    {"study-room", makeStudyRoom, 100354, "Closed wavy room for measuring rates of rays"},
 };
 
 }  // namespace
 
+std::span<const BuiltinScene> builtinScenes() { return kBuiltins; }
+
 std::vector<std::string> builtinSceneNames() {
   std::vector<std::string> names;
-  for (const Builtin& builtin : kBuiltins) names.emplace_back(builtin.name);
+  for (const BuiltinScene& builtin : kBuiltins) names.emplace_back(builtin.name);
   return names;
 }
 
 Scene builtinScene(const std::string& name, float detail) {
   if (!std::isfinite(detail) || detail < 0.05f || detail > 20)
     throw UsageError(fmt::format("detail {}: must be a number from 0.05 to 20", detail));
-  for (const Builtin& builtin : kBuiltins)
+  for (const BuiltinScene& builtin : kBuiltins)
     if (name == builtin.name) {
       Scene scene = builtin.make(detail);
       scene.name = name;
