@@ -108,6 +108,21 @@ class Everything {
     scaled.scale = 0.37f;
     scaled.a = bitmaps_[2];
     scaled_ = put(scene.textures, scaled);
+    // Ours: one within the other, with constants among the parts.
+    Texture tinted, blended, curve, second;
+    tinted.type = TextureType::product;
+    tinted.a = bitmaps_[0], tinted.b = checker.a;
+    blended.type = TextureType::mix;
+    blended.a = checker_, blended.b = put(scene.textures, tinted), blended.c = scaled_;
+    curve.type = TextureType::power;
+    curve.a = put(scene.textures, blended), curve.scale = 0.45f;
+    combined_ = put(scene.textures, curve);
+    second = scene[bitmaps_[2]];
+    second.channel = 3;
+    second.attribute = "vertex_uv1";
+    second_ = put(scene.textures, second);
+    b.channel = 1, b.scale = 1.5f;
+    attribute_ = put(scene.textures, b);
   }
   static float srgb(float byte) {
     const double v = static_cast<double>(byte) / 255;
@@ -127,14 +142,14 @@ class Everything {
       if (!is(T::diffuse, T::principled, T::diffuseTransmitter))
         m.specular = type % 2 ? ColorParam(randomRgb()) : ColorParam(bitmaps_[0]);
       if (is(T::dielectric, T::thinDielectric, T::roughDielectric, T::diffuseTransmitter))
-        m.transmittance = randomRgb();
+        m.transmittance = is(T::thinDielectric) ? ColorParam(combined_) : ColorParam(randomRgb());
       if (is(T::conductor, T::roughConductor)) m.eta = randomRgb(), m.k = randomRgb();
       if (is(T::dielectric, T::thinDielectric, T::roughDielectric, T::plastic, T::roughPlastic,
              T::principled))
         m.ior = 1 + random();
       if (is(T::plastic, T::roughPlastic)) m.nonlinear = true;
       if (is(T::roughConductor))
-        m.distribution = Distribution::ggx, m.alphaU = random(), m.alphaV = random();
+        m.distribution = Distribution::ggx, m.alphaU = second_, m.alphaV = attribute_;
       if (is(T::roughDielectric))
         m.distribution = Distribution::phong, m.alphaU = m.alphaV = scaled_;
       if (is(T::roughPlastic))
@@ -175,6 +190,7 @@ class Everything {
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
     mesh.attributes = {
         {"vertex_color", false, 3, {0, .1f, .2f, .3f, .4f, .5f, .6f, .7f, .8f, .9f, 1, 0}},
+        {"vertex_uv1", false, 2, {0, 0, 1, 0.1f, 1, 1, -2, 3}},
         {"face_tone", true, 1, {3, 4}}};
     put(scene.meshes, mesh);  // flat
     mesh.normals = {{0, 0, 1}, normalize(Vec3f(1, 2, 3)), {1, 0, 0}, {0, -1, 0}};
@@ -264,7 +280,7 @@ class Everything {
 
   std::mt19937 random_{9};
   std::vector<TextureHandle> bitmaps_;
-  TextureHandle checker_, scaled_;
+  TextureHandle checker_, scaled_, combined_, second_, attribute_;
 };
 
 TEST(MitsubaWriter, EverythingComesBack) {

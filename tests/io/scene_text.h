@@ -41,14 +41,20 @@ class SceneText {
       case TextureType::constant:
         return "rgb " + rgb(t.value);
       case TextureType::bitmap:
-        return fmt::format("bitmap({} {} {} {} {})", image(t.image), int(t.filter), int(t.wrap),
-                           t.alphaChannel, uv(t));
+        return fmt::format("bitmap({} {} {} {} {} {} {})", image(t.image), int(t.filter),
+                           int(t.wrap), t.alphaChannel, t.channel, t.attribute, uv(t));
       case TextureType::checkerboard:
         return fmt::format("checker({} {} {})", texture(t.a), texture(t.b), uv(t));
       case TextureType::scale:
         return fmt::format("scale({} {})", t.scale, texture(t.a));
       case TextureType::meshAttribute:
-        return "attribute " + t.attribute;
+        return fmt::format("attribute {} {} {}", t.attribute, t.channel, t.scale);
+      case TextureType::product:
+        return fmt::format("product({} {})", texture(t.a), texture(t.b));
+      case TextureType::mix:
+        return fmt::format("mix({} {} {})", texture(t.a), texture(t.b), texture(t.c));
+      case TextureType::power:
+        return fmt::format("power({} {})", texture(t.a), t.scale);
     }
     return "?";
   }

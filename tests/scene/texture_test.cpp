@@ -134,6 +134,95 @@ TEST(Texture, MeshAttributesOfVerticesAndFaces) {
   EXPECT_FLOAT_EQ(evaluate(s, TextureHandle{1}, context).x, 1.5f);
 }
 
+TEST(Texture, ChannelsAreReadAlone) {
+  Scene s = imageScene(Filter::nearest, Wrap::repeat);
+  EXPECT_EQ(at(s, 0.5f, 0.1f), 2);
+  s.textures[0].channel = 2;
+  EXPECT_EQ(at(s, 0.5f, 0.1f), 2);  // grey: all channels alike
+  s.textures[0].channel = 3;
+  EXPECT_EQ(at(s, 0.5f, 0.1f), 1);  // opaque
+  s.images[0].width = 1, s.images[0].height = 1, s.images[0].channels = 4;
+  s.images[0].pixels = {0.1f, 0.2f, 0.3f, 0.4f};
+  for (int channel = 0; channel < 4; ++channel) {
+    s.textures[0].channel = channel;
+    EXPECT_EQ(at(s, 0, 0), s.images[0].pixels[static_cast<size_t>(channel)]);
+    EXPECT_EQ(mean(s, ColorParam(TextureHandle{0})),
+              Rgb(s.images[0].pixels[static_cast<size_t>(channel)]));
+  }
+  Mesh mesh = test::squareMesh();
+  mesh.attributes.push_back({"vertex_color", false, 3, {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3}});
+  s.textures[0].type = TextureType::meshAttribute;
+  s.textures[0].attribute = "vertex_color";
+  const TextureContext context{{}, &mesh, 1, {0.25f, 0.5f}};
+  const float expected[] = {1, 2, 3, 1};
+  for (int channel = 0; channel < 4; ++channel) {
+    s.textures[0].channel = channel;
+    EXPECT_EQ(evaluate(s, TextureHandle{0}, context), Rgb(expected[channel]));
+  }
+}
+
+TEST(Texture, BitmapsTakeTheirUvFromAnAttribute) {
+  Scene s = imageScene(Filter::bilinear, Wrap::repeat);
+  Mesh mesh = test::squareMesh();
+  // The mesh's uv, turned: u' = v, v' = 1 - u.
+  MeshAttribute turned{"vertex_uv1", false, 2, {}};
+  for (const Vec2f uv : mesh.uvs) turned.values.insert(turned.values.end(), {uv.y, 1 - uv.x});
+  mesh.attributes.push_back(turned);
+  s.textures.push_back(s.textures[0]);
+  s.textures[1].attribute = "vertex_uv1";
+  const Vec3u v = mesh.triangles[1];
+  const Vec2f b{0.3f, 0.45f};
+  const Vec2f uv = mesh.uvs[v.x] * (1 - b.x - b.y) + mesh.uvs[v.y] * b.x + mesh.uvs[v.z] * b.y;
+  const TextureContext context{uv, &mesh, 1, b};
+  EXPECT_NEAR(evaluate(s, FloatParam(TextureHandle{1}), context), at(s, uv.y, 1 - uv.x), 1e-5f);
+  TextureContext there;
+  there.uv = {uv.y, 1 - uv.x};
+  const Vec2f slope = gradient(s, TextureHandle{0}, there);
+  const Vec2f g = gradient(s, TextureHandle{1}, context);
+  EXPECT_NEAR(g.x, -slope.y, 1e-4f);
+  EXPECT_NEAR(g.y, slope.x, 1e-4f);
+  EXPECT_GT(std::abs(slope.x) + std::abs(slope.y), 0.1f);
+  // Without the attribute the mesh's own uv serve.
+  mesh.attributes.clear();
+  EXPECT_EQ(evaluate(s, FloatParam(TextureHandle{1}), context), at(s, uv.x, uv.y));
+}
+
+// product, mix and power of an image and constants: values, slopes by differences, means.
+TEST(Texture, Combinations) {
+  Scene s = imageScene(Filter::bilinear, Wrap::repeat);
+  s.textures.resize(7);
+  s.textures[1].value = {0.5f, 1, 2};
+  s.textures[2].value = Rgb(0.25f);
+  s.textures[3].type = TextureType::product;
+  s.textures[3].a = {0}, s.textures[3].b = {1};
+  s.textures[4].type = TextureType::mix;
+  s.textures[4].a = {0}, s.textures[4].b = {2}, s.textures[4].c = {2};
+  s.textures[5].type = TextureType::power;
+  s.textures[5].a = {4}, s.textures[5].scale = 1.5f;
+  s.textures[6].type = TextureType::product;
+  s.textures[6].a = {5}, s.textures[6].b = {0};
+  TextureContext c;
+  c.uv = {0.5f, 0.25f};
+  const float image = at(s, 0.5f, 0.25f);
+  EXPECT_EQ(evaluate(s, TextureHandle{3}, c), Rgb(0.5f * image, image, 2 * image));
+  const float mixed = 0.75f * image + 0.25f * 0.25f;
+  EXPECT_FLOAT_EQ(at(s, 0.5f, 0.25f, 4), mixed);
+  EXPECT_FLOAT_EQ(at(s, 0.5f, 0.25f, 5), std::pow(mixed, 1.5f));
+  EXPECT_NEAR(mean(s, ColorParam(TextureHandle{3})).z, 7, 0.02f);
+  EXPECT_NEAR(mean(s, ColorParam(TextureHandle{4})).x, 0.75f * 3.5f + 0.0625f, 0.02f);
+  c.uv = {0.37f, 0.4f};
+  constexpr float h = 1e-3f;
+  const Vec2f g = gradient(s, TextureHandle{6}, c);
+  EXPECT_NEAR(g.x, (at(s, 0.37f + h, 0.4f, 6) - at(s, 0.37f - h, 0.4f, 6)) / (2 * h), 0.05f);
+  EXPECT_NEAR(g.y, (at(s, 0.37f, 0.4f + h, 6) - at(s, 0.37f, 0.4f - h, 6)) / (2 * h), 0.05f);
+  EXPECT_GT(std::abs(g.x), 1);
+  // The square root of black is black, and has no slope that anybody could use.
+  s.textures[2].value = Rgb(-1.f);
+  s.textures[5].a = {2};
+  EXPECT_EQ(at(s, 0, 0, 5), 0);
+  EXPECT_EQ(gradient(s, TextureHandle{5}, c), Vec2f());
+}
+
 TEST(Texture, ScalarOfColourIsLuminance) {
   Scene s;
   s.textures.resize(1);

@@ -66,15 +66,36 @@ class StreamHash {
     for (const auto& row : t.uvMatrix) {
       for (float v : row) add(v);
     }
-    add(t.a), add(t.b), add(t.scale), add(t.attribute);
+    add(t.channel), add(t.a), add(t.b), add(t.c), add(t.scale), add(t.attribute);
   }
   void add(const Material& m) {
     add(m.type), add(m.a), add(m.b);
-    for (const ColorParam* c : {&m.diffuse, &m.specular, &m.transmittance, &m.eta, &m.k}) add(*c);
+    for (const ColorParam* c :
+         {&m.diffuse, &m.specular, &m.transmittance, &m.eta, &m.k, &m.sheenColor})
+      add(*c);
+    add(m.isSpecularGlossiness), add(m.clearcoatNormal), add(m.anisotropicDirection), add(m.thin);
+    add(m.coatIor), add(m.absorption);
     add(m.ior), add(m.distribution), add(m.wardVariant), add(m.nonlinear), add(m.map), add(m.scale);
-    for (const FloatParam* f : {&m.alphaU, &m.alphaV, &m.roughness, &m.anisotropic, &m.metallic,
-                                &m.specTrans, &m.specTint, &m.sheen, &m.sheenTint, &m.flatness,
-                                &m.clearcoat, &m.clearcoatGloss, &m.opacity, &m.weight}) {
+    for (const FloatParam* f : {&m.alphaU,
+                                &m.alphaV,
+                                &m.roughness,
+                                &m.anisotropic,
+                                &m.metallic,
+                                &m.specTrans,
+                                &m.specTint,
+                                &m.sheen,
+                                &m.sheenTint,
+                                &m.flatness,
+                                &m.clearcoat,
+                                &m.clearcoatGloss,
+                                &m.opacity,
+                                &m.weight,
+                                &m.specularStrength,
+                                &m.sheenRoughness,
+                                &m.clearcoatRoughness,
+                                &m.anisotropicRotation,
+                                &m.coatAlphaU,
+                                &m.coatAlphaV}) {
       add(*f);
     }
   }

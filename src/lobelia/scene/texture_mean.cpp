@@ -1,5 +1,9 @@
 // Mean of a colour parameter over the unit square of uv. Exact where it is a mean of texels;
-// otherwise (transformed or nested textures) the midpoint rule on a fixed grid.
+// otherwise (transformed or nested textures) the midpoint rule on a fixed grid. Where textures that
+// are no functions of uv are combined, their means are: near enough for choosing lights.
+#include <algorithm>
+#include <cmath>
+
 #include "lobelia/scene/scene.h"
 #include "lobelia/scene/texture.h"
 
@@ -34,9 +38,12 @@ Rgb gridMean(const Scene& scene, TextureHandle handle) {
 // Bilinear filtering keeps the mean of the texels when the image repeats.
 Rgb texelMean(const Texture& t, const Image& image) {
   const auto channels = static_cast<size_t>(image.channels);
-  const bool alpha = t.alphaChannel && channels % 2 == 0;
-  const bool colour = channels >= 3 && !alpha;
-  const size_t first = alpha ? channels - 1 : 0;
+  const bool hasAlpha = channels % 2 == 0;
+  if (!t.alphaChannel && t.channel >= 3 && !hasAlpha) return Rgb(1.f);
+  const bool alpha = hasAlpha && (t.alphaChannel || t.channel >= 3);
+  const bool colour = channels >= 3 && !alpha && t.channel < 0;
+  const size_t chosen = t.channel > 0 && channels >= 3 ? static_cast<size_t>(t.channel) : 0;
+  const size_t first = alpha ? channels - 1 : chosen;
   Vec3d sum;
   for (size_t i = first; i < image.pixels.size(); i += channels) {
     const float* const p = &image.pixels[i];
@@ -55,12 +62,36 @@ Rgb attributeMean(const Scene& scene, const Texture& t) {
       const auto size = static_cast<size_t>(a.size);
       for (size_t i = 0; i + size <= a.values.size(); i += size) {
         const float* const v = &a.values[i];
-        sum += size >= 3 ? Vec3d(v[0], v[1], v[2]) : Vec3d(v[0]);
+        if (t.channel >= 3)
+          sum += Vec3d(size >= 4 ? v[3] : 1.f);
+        else if (t.channel >= 0)
+          sum += Vec3d(v[t.channel < a.size ? t.channel : 0]);
+        else
+          sum += size >= 3 ? Vec3d(v[0], v[1], v[2]) : Vec3d(v[0]);
         ++count;
       }
     }
   }
   return count > 0 ? toRgb(sum, count) * t.scale : Rgb(0.f);
+}
+
+bool dependsOnMesh(const Scene& scene, TextureHandle handle) {
+  if (!handle.valid()) return false;
+  const Texture& t = scene[handle];
+  switch (t.type) {
+    case TextureType::meshAttribute:
+      return true;
+    case TextureType::constant:
+    case TextureType::bitmap:
+      return false;
+    case TextureType::checkerboard:
+    case TextureType::scale:
+    case TextureType::product:
+    case TextureType::mix:
+    case TextureType::power:
+      break;
+  }
+  return dependsOnMesh(scene, t.a) || dependsOnMesh(scene, t.b) || dependsOnMesh(scene, t.c);
 }
 
 Rgb mean(const Scene& scene, TextureHandle handle) {
@@ -77,6 +108,22 @@ Rgb mean(const Scene& scene, TextureHandle handle) {
     case TextureType::meshAttribute:
       return attributeMean(scene, t);
     case TextureType::checkerboard:
+      if (dependsOnMesh(scene, handle)) return (mean(scene, t.a) + mean(scene, t.b)) * 0.5f;
+      break;
+    case TextureType::product:
+      if (dependsOnMesh(scene, handle)) return mean(scene, t.a) * mean(scene, t.b);
+      break;
+    case TextureType::mix:
+      if (dependsOnMesh(scene, handle)) {
+        const Rgb amount = mean(scene, t.c);
+        return mean(scene, t.a) * (Rgb(1.f) - amount) + mean(scene, t.b) * amount;
+      }
+      break;
+    case TextureType::power:
+      if (dependsOnMesh(scene, handle)) {
+        const Rgb base = max(mean(scene, t.a), Rgb(0.f));
+        return {std::pow(base.x, t.scale), std::pow(base.y, t.scale), std::pow(base.z, t.scale)};
+      }
       break;
   }
   return gridMean(scene, handle);

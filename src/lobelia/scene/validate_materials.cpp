@@ -77,8 +77,12 @@ std::vector<std::string> attributeNames(const Scene& scene) {
 std::vector<TextureHandle> children(const Texture& t) {
   switch (t.type) {
     case TextureType::checkerboard:
+    case TextureType::product:
       return {t.a, t.b};
+    case TextureType::mix:
+      return {t.a, t.b, t.c};
     case TextureType::scale:
+    case TextureType::power:
       return {t.a};
     default:
       return {};
@@ -120,7 +124,12 @@ float upperBound(const Scene& scene, TextureHandle handle) {
       return largest;
     }
     case TextureType::checkerboard:
+    case TextureType::mix:
       return std::max(upperBound(scene, t.a), upperBound(scene, t.b));
+    case TextureType::product:
+      return upperBound(scene, t.a) * upperBound(scene, t.b);
+    case TextureType::power:
+      return t.scale > 0 ? std::pow(std::max(upperBound(scene, t.a), 0.f), t.scale) : 1;
     case TextureType::scale:
       return t.scale * upperBound(scene, t.a);
     case TextureType::meshAttribute:
@@ -267,10 +276,23 @@ bool checkTextures(const Scene& scene, Findings& findings) {
         valid = false;
       }
     }
-    if (t.type == TextureType::meshAttribute &&
-        std::find(attributes.begin(), attributes.end(), t.attribute) == attributes.end()) {
-      findings.warning(fmt::format("{}: no mesh has an attribute '{}', so it is black{}", who,
-                                   t.attribute, suggestion(t.attribute, attributes)));
+    const bool reads = t.type == TextureType::meshAttribute ||
+                       (t.type == TextureType::bitmap && !t.attribute.empty());
+    if (reads && std::find(attributes.begin(), attributes.end(), t.attribute) == attributes.end()) {
+      findings.warning(
+          fmt::format("{}: no mesh has an attribute '{}', so {}{}", who, t.attribute,
+                      t.type == TextureType::bitmap ? "it takes the meshes' own uv" : "it is black",
+                      suggestion(t.attribute, attributes)));
+    }
+    if (!std::isfinite(t.scale)) {
+      findings.error(fmt::format("{}: its {} is not finite", who,
+                                 t.type == TextureType::power ? "exponent" : "scale"));
+      valid = false;
+    }
+    if (t.channel < -1 || t.channel > 3) {
+      findings.error(fmt::format("{}: channel {}; it may be 0 to 3 (r, g, b, alpha), or -1 for all",
+                                 who, t.channel));
+      valid = false;
     }
   }
   if (!valid) return false;

@@ -32,6 +32,9 @@ class Reader {
   TextureHandle bitmap(Object& object);
   TextureHandle checkerboard(Object& object);
   TextureHandle scaleTexture(Object& object);
+  TextureHandle combination(Object& object);
+  TextureHandle part(Object& object, const char* name, float otherwise);
+  void channel(Object& object, Texture* out);
   void uvTransform(Object& object, Texture* out);
   ImageHandle image(const std::string& file, bool raw, float gamma, const Location& where);
   TextureHandle add(Texture texture);

@@ -2,7 +2,9 @@
 //
 // Types: bitmap, checkerboard, scale, mesh_attribute (0.6: vertexcolors). The filters "ewa" and
 // "trilinear" of 0.6 are read as bilinear: prefiltering changes noise, not the expected image much.
-// As in Mitsuba, the alpha channel of an image is dropped unless channel = "a" asks for it.
+// Our own: product (a b), mix (a (1 - amount) + b amount), power (a^exponent); of a bitmap or mesh
+// attribute an integer `channel`, 0 to 3; of a bitmap `attribute`, the vertex attribute that has
+// its uv. As in Mitsuba, the alpha channel of an image is dropped unless channel = "a" asks for it.
 
 #include "lobelia/film/film.h"
 #include "lobelia/io/image_io.h"
@@ -12,8 +14,9 @@ namespace lobelia::io::mitsuba {
 namespace {
 
 const std::vector<std::string>& textureTypes() {
-  static const std::vector<std::string> types{"bitmap", "checkerboard", "scale", "mesh_attribute",
-                                              "vertexcolors"};
+  static const std::vector<std::string> types{
+      "bitmap",       "checkerboard", "scale", "mesh_attribute",
+      "vertexcolors", "product",      "mix",   "power"};
   return types;
 }
 
@@ -92,16 +95,10 @@ TextureHandle Reader::texture(const Element& element) {
                                            "'; it must begin with vertex_ or face_");
     }
     t.scale = object.number("scale", 1.f);
-    if (t.scale != 1) {
-      Texture scaled;
-      scaled.type = TextureType::scale;
-      scaled.scale = t.scale;
-      t.scale = 1;
-      scaled.a = add(std::move(t));
-      handle = add(std::move(scaled));
-    } else {
-      handle = add(std::move(t));
-    }
+    channel(object, &t);
+    handle = add(std::move(t));
+  } else if (type == "product" || type == "mix" || type == "power") {
+    handle = combination(object);
   } else {
     unknownType(object, textureTypes());
   }
@@ -128,10 +125,11 @@ TextureHandle Reader::bitmap(Object& object) {
   if (wrapMode(wrapV, object.where()) != t.wrap) {
     findings_.warn(object.where(), "wrap_mode_v differs from wrap_mode_u, which is used for both");
   }
-  const std::string channel = object.string("channel").value_or("");
-  t.alphaChannel = channel == "a";
-  if (!channel.empty() && channel != "a" && channel != "r") {
-    findings_.warn(object.where(), "the channel '" + channel + "' cannot be chosen; only a can");
+  channel(object, &t);
+  t.attribute = object.string("attribute").value_or("");
+  if (!t.attribute.empty() && t.attribute.rfind("vertex_", 0) != 0) {
+    throw InputError(object.where(), "the bitmap's attribute is '" + t.attribute +
+                                         "'; uv are attributes of vertices: vertex_...");
   }
   const bool raw = object.boolean("raw", false);
   const float gamma = object.number("gamma", 0.f);
@@ -142,18 +140,56 @@ TextureHandle Reader::bitmap(Object& object) {
   return add(std::move(t));
 }
 
+// A string as 0.6 has it (r, g, b; a: opacity where the image has it), or our number.
+void Reader::channel(Object& object, Texture* out) {
+  const Element* e = object.property("channel");
+  if (!e) return;
+  if (e->tag == "integer") {
+    out->channel = object.integer("channel", 0);
+    if (out->channel < 0 || out->channel > 3) {
+      throw InputError(e->where, "the channel is " + std::to_string(out->channel) +
+                                     "; it may be 0 to 3 (r, g, b, alpha)");
+    }
+    return;
+  }
+  const std::string name = object.string("channel").value_or("");
+  static const std::string kNames = "rgb";
+  if (name == "a") {
+    out->alphaChannel = true;
+  } else if (name.size() == 1 && kNames.find(name) != std::string::npos) {
+    out->channel = static_cast<int>(kNames.find(name));
+  } else if (!name.empty()) {
+    findings_.warn(e->where, "the channel '" + name + "' cannot be chosen; r, g, b and a can");
+  }
+}
+
+// A texture inside another one, which may be given as a constant.
+TextureHandle Reader::part(Object& object, const char* name, float otherwise) {
+  const ColorParam param = color(object, name, Rgb(otherwise), SpectrumUse::unbounded);
+  if (param.texture.valid()) return param.texture;
+  Texture constant;
+  constant.value = param.value;
+  return add(std::move(constant));
+}
+
+TextureHandle Reader::combination(Object& object) {
+  const std::string& type = object.type();
+  Texture t;
+  t.type = type == "product" ? TextureType::product
+           : type == "mix"   ? TextureType::mix
+                             : TextureType::power;
+  t.a = part(object, "a", t.type == TextureType::mix ? 0.f : 1.f);
+  if (t.type != TextureType::power) t.b = part(object, "b", 1);
+  if (t.type == TextureType::mix) t.c = part(object, "amount", 0.5f);
+  if (t.type == TextureType::power) t.scale = object.number("exponent", 1.f);
+  return add(std::move(t));
+}
+
 TextureHandle Reader::checkerboard(Object& object) {
   Texture t;
   t.type = TextureType::checkerboard;
-  const auto side = [&](const char* name, float otherwise) {
-    const ColorParam param = color(object, name, Rgb(otherwise));
-    if (param.texture.valid()) return param.texture;
-    Texture constant;
-    constant.value = param.value;
-    return add(std::move(constant));
-  };
-  t.a = side("color0", 0.4f);
-  t.b = side("color1", 0.2f);
+  t.a = part(object, "color0", 0.4f);
+  t.b = part(object, "color1", 0.2f);
   uvTransform(object, &t);
   return add(std::move(t));
 }

@@ -180,7 +180,7 @@ std::string Writer::textureId(TextureHandle handle, bool asNumber) {
   const std::string id = ids_.make("", exchange ? "texture_of_numbers" : "texture");
   textureIds_.emplace(key, id);
   // Nested textures first: they are written before this one.
-  for (const TextureHandle inner : {texture.a, texture.b})
+  for (const TextureHandle inner : {texture.a, texture.b, texture.c})
     if (inner.valid() && !constantOf(inner)) textureId(inner, false);
   textureNode(root_, texture, id);
   return id;
@@ -188,6 +188,9 @@ std::string Writer::textureId(TextureHandle handle, bool asNumber) {
 
 pugi::xml_node Writer::textureNode(Node parent, const Texture& t, const std::string& id) {
   constexpr const char* kWraps[] = {"repeat", "mirror", "clamp", "zero", "one"};
+  const auto channel = [&](Node node) {
+    if (t.channel >= 0) property(node, "integer", "channel", std::to_string(t.channel));
+  };
   switch (t.type) {
     case TextureType::bitmap: {
       Node node = object(parent, "texture", "bitmap", id);
@@ -195,6 +198,8 @@ pugi::xml_node Writer::textureNode(Node parent, const Texture& t, const std::str
       property(node, "string", "filter_type", t.filter == Filter::nearest ? "nearest" : "bilinear");
       property(node, "string", "wrap_mode", kWraps[static_cast<size_t>(t.wrap)]);
       if (t.alphaChannel) property(node, "string", "channel", "a");
+      channel(node);
+      if (!t.attribute.empty()) property(node, "string", "attribute", t.attribute);
       if (isRaw(t.image)) property(node, "boolean", "raw", "true");
       uvTransform(node, t);
       return node;
@@ -225,6 +230,20 @@ pugi::xml_node Writer::textureNode(Node parent, const Texture& t, const std::str
     case TextureType::meshAttribute: {
       Node node = object(parent, "texture", "mesh_attribute", id);
       property(node, "string", "name", t.attribute);
+      if (t.scale != 1) property(node, "float", "scale", text(t.scale));
+      channel(node);
+      return node;
+    }
+    case TextureType::product:
+    case TextureType::mix:
+    case TextureType::power: {
+      const bool isMix = t.type == TextureType::mix, isPower = t.type == TextureType::power;
+      const char* const type = isPower ? "power" : isMix ? "mix" : "product";
+      Node node = object(parent, "texture", type, id);
+      color(node, "a", t.a);
+      if (!isPower) color(node, "b", t.b);
+      if (isMix) color(node, "amount", t.c);
+      if (isPower) property(node, "float", "exponent", text(t.scale));
       return node;
     }
   }
