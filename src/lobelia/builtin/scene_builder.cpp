@@ -1,5 +1,7 @@
 #include "lobelia/builtin/scene_builder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,6 +35,22 @@ TextureHandle SceneBuilder::add(Rgb constant) {
 }
 ImageHandle SceneBuilder::add(Image image) {
   return append<ImageHandle>(scene_.images, std::move(image));
+}
+TextureHandle SceneBuilder::addBitmap(Image image, Vec2f perUv) {
+  Texture texture;
+  texture.type = TextureType::bitmap;
+  texture.image = add(std::move(image));
+  texture.uvMatrix[0][0] = perUv.x, texture.uvMatrix[1][1] = perUv.y;
+  return add(std::move(texture));
+}
+MaterialHandle SceneBuilder::addBumped(Material material, TextureHandle height, float metres,
+                                       std::string name) {
+  Material bump;
+  bump.type = MaterialType::bump;
+  bump.a = add(std::move(material), fmt::format("{}, even", name));
+  bump.map = height;
+  bump.scale = metres;
+  return add(std::move(bump), std::move(name));
 }
 MeshHandle SceneBuilder::add(Mesh mesh, std::string name) {
   mesh.name = std::move(name);

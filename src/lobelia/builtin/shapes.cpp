@@ -3,44 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lobelia/builtin/mesh_edit.h"
+#include "lobelia/builtin/spline.h"
+
 namespace lobelia::builtin {
-namespace {
-
-void addVertex(Mesh& mesh, Vec3f p, Vec3f n, Vec2f uv) {
-  mesh.positions.push_back(p);
-  mesh.normals.push_back(n);
-  mesh.uvs.push_back(uv);
-}
-
-// Two triangles per cell of a grid of (rows + 1) x (columns + 1) vertices that starts at `base`.
-// Cells that are pressed into a point at a row's end lose the triangle without area.
-void addGrid(Mesh& mesh, size_t base, int rows, int columns) {
-  const auto vertex = [&](int i, int j) {
-    return static_cast<uint32_t>(base) + static_cast<uint32_t>(i * (columns + 1) + j);
-  };
-  const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
-    const auto same = [&](uint32_t i, uint32_t j) {
-      return mesh.positions[i] == mesh.positions[j];
-    };
-    if (!same(a, b) && !same(b, c) && !same(c, a)) mesh.triangles.push_back({a, b, c});
-  };
-  for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < columns; ++j) {
-      add(vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1));
-      add(vertex(i, j), vertex(i + 1, j + 1), vertex(i + 1, j));
-    }
-}
-
-float fraction(int i, int n) { return static_cast<float>(i) / static_cast<float>(n); }
-
-// cos and sin of the i-th of n parts of the circle; the last is the first, bit for bit.
-Vec2f circle(int i, int n) {
-  const float phi = kTwoPi * fraction(i % n, n);
-  return {std::cos(phi), std::sin(phi)};
-}
-
-}  // namespace
-
 Mesh roundedBox(Vec3f halfExtent, float radius, int segments) {
   radius = std::min(radius, minComponent(halfExtent));
   const Vec3f inner = halfExtent - Vec3f(radius);
@@ -95,22 +61,7 @@ Mesh revolve(const std::function<Vec2f(float)>& profile, int rows, int segments)
 }
 
 std::function<Vec2f(float)> smoothCurve(std::vector<Vec2f> points) {
-  return [points = std::move(points)](float t) {
-    const int last = static_cast<int>(points.size()) - 1;
-    const float s = t * static_cast<float>(last);
-    const int i = std::clamp(static_cast<int>(s), 0, last - 1);
-    const float f = s - static_cast<float>(i);
-    const auto at = [&](int k) {
-      if (k < 0) return points[0] * 2.f - points[1];
-      if (k > last)
-        return points[static_cast<size_t>(last)] * 2.f - points[static_cast<size_t>(last - 1)];
-      return points[static_cast<size_t>(k)];
-    };
-    const Vec2f a = at(i - 1), b = at(i), c = at(i + 1), d = at(i + 2);
-    return b +
-           ((c - a) + ((a * 2.f - b * 5.f + c * 4.f - d) + (b * 3.f - a - c * 3.f + d) * f) * f) *
-               (0.5f * f);
-  };
+  return [points = std::move(points)](float t) { return catmullRom(points, false, t); };
 }
 
 Mesh torusKnot(const TorusKnot& knot, int along, int around) {
