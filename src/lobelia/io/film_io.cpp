@@ -39,7 +39,9 @@ using ChannelGroups = std::map<std::string, std::vector<ChannelPlace>>;
 // Channels beside R, G, B and A ("Z", say) become layers of their own.
 void separateExtras(ChannelGroups& layers) {
   ChannelGroups extras;
-  for (auto& [name, places] : layers) {
+  for (auto& layer : layers) {
+    const std::string& name = layer.first;
+    std::vector<ChannelPlace>& places = layer.second;
     const auto has = [&](const char* channel) {
       return std::any_of(places.begin(), places.end(),
                          [&](const ChannelPlace& p) { return p.name == channel; });
