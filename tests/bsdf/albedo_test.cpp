@@ -31,7 +31,8 @@ TEST(LobeAlbedo, MicrofacetsWithEveryFresnel) {
     float roughest;  // the Phong distribution changes fast as its exponent nears zero
   } distributions[] = {{Distribution::ggx, "ggx", 0.9f},
                        {Distribution::beckmann, "beckmann", 0.9f},
-                       {Distribution::phong, "phong", 0.6f}};
+                       {Distribution::phong, "phong", 0.6f},
+                       {Distribution::sphericalGaussian, "spherical Gaussian", 1.9f}};
   for (const auto& d : distributions)
     for (const float alpha : {0.013f, 0.1f, 0.37f, d.roughest})
       for (const Fresnel fresnel :

@@ -152,6 +152,26 @@ TEST(Expand, MixturesFollowTheTailsOfGgx) {
          {"ggx .4", microfacet(ggx, .4f, .4f), 75, 0, 9, 0.13}});
 }
 
+// Sharpness 2 / alpha^2 of the half vector: 800, 50, 12.5. One Gaussian is the warp of [Wang09].
+TEST(Expand, CapturedLobesAreWarped) {
+  using enum Distribution;
+  const Lobe narrow = microfacet(sphericalGaussian, .05f, .05f);
+  const Lobe medium = microfacet(sphericalGaussian, .2f, .2f);
+  const Lobe wide = microfacet(sphericalGaussian, .4f, .4f);
+  check({{"sg 800", narrow, 0, 0, 1, 0.006},
+         {"sg 800", narrow, 30, 0, 1, 0.10},
+         {"sg 50", medium, 0, 0, 1, 0.05},
+         {"sg 800", narrow, 30, 0, 24, 0.02},
+         {"sg 800", narrow, 60, 0, 24, 0.06},
+         {"sg 50", medium, 60, 0, 24, 0.07},
+         {"sg 50", medium, 75, 0, 24, 0.14},
+         {"sg 12.5", wide, 60, 0, 24, 0.13}});
+  const Bsdf bsdf = bsdfOf(narrow);
+  const LobeExpansion one = expand(bsdf, direction(bsdf, 60), 1);
+  EXPECT_NEAR(one.gaussians[0].sharpness, 800 / (4 * std::cos(kPi / 3)), 0.5f);
+  EXPECT_NEAR(dot(one.gaussians[0].axis, direction(bsdf, 60, kPi)), 1, 1e-5f);
+}
+
 TEST(Expand, RowsFollowAnisotropy) {
   using enum Distribution;
   check({{"ward .3/.1", ward(.3f, .1f), 0, .5f, 16, 0.06},
@@ -203,6 +223,8 @@ TEST(Expand, EnergyIsTheAlbedoAtEveryAngle) {
     lobes.emplace_back("ggx conductor", lobe);
   }
   lobes.emplace_back("ggx .4/.1", microfacet(Distribution::ggx, .4f, .1f));
+  for (const float a : {.03f, .3f, 1.8f})
+    lobes.emplace_back("sg", microfacet(Distribution::sphericalGaussian, a, a));
   lobes.emplace_back("ward .3/.05", ward(.3f, .05f));
   for (const auto& [name, lobe] : lobes) {
     const Bsdf bsdf = bsdfOf(lobe);
@@ -267,6 +289,7 @@ TEST(Expand, IsFiniteForEveryLobeAndAngle) {
       if (kind == 0) lobe = phongLobe(std::exp(9 * rng.next1D()));
       if (kind == 1) lobe = ward(alpha(), alpha());
       if (kind == 2) lobe = transmission(alpha(), 0.5f + 2 * rng.next1D());
+      if (kind == 3) lobe.distribution = Distribution::sphericalGaussian, lobe.alphaY = lobe.alphaX;
       lobe.twoSided = rng.next1D() < 0.5f;
       bsdf.add(lobe);
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lobelia/bsdf/bsdf.h"
+#include "lobelia/bsdf/captured.h"
 #include "lobelia/bsdf/coat.h"
 #include "lobelia/bsdf/lobe_sampling.h"
 #include "support/chi_squared.h"
@@ -126,6 +127,18 @@ inline std::vector<Example> examples() {
       add("ward " + std::to_string(variant) + " " + std::to_string(a[0]) + " " +
               std::to_string(a[1]),
           single(simple(LobeType::ward, a[0], a[1], variant)), std::min(a[0], a[1]), false);
+  for (const float sharpness : {20000.f, 200.f, 20.f, 2.f, 0.5f}) {
+    const Rgb whole(1 / projectedIntegral(sharpness));
+    for (const float ior : {1.f, 1.5f})
+      add("spherical Gaussian " + std::to_string(sharpness) + " ior " + std::to_string(ior),
+          single(capturedLobe(whole, sharpness, ior)), std::sqrt(2 / sharpness));
+  }
+  // Under a dielectric's Fresnel term all of it may be given to both parts.
+  Bsdf captured;
+  captured.add(capturedDiffuse(Rgb(0.9f), 1.5f));
+  captured.add(capturedLobe(Rgb(0.5f / projectedIntegral(300)), 300, 1.5f));
+  captured.add(capturedLobe(Rgb(0.5f / projectedIntegral(8)), 8, 1.5f));
+  add("captured", captured, 0.08f);
   Bsdf mixture;
   mixture.add(simple(LobeType::lambert));
   mixture.add(microfacets(Distribution::ggx, 0.2f, 0.1f, Fresnel::schlick));

@@ -68,7 +68,7 @@ inline Lobe randomLobe(LobeType type, Rng* rng) {
       break;
     case LobeType::microfacetReflection:
       lobe.distribution =
-          static_cast<Distribution>(std::min(3, static_cast<int>(rng->next1D() * 4)));
+          static_cast<Distribution>(std::min(4, static_cast<int>(rng->next1D() * 5)));
       lobe.fresnel = static_cast<Fresnel>(std::min(5, static_cast<int>(rng->next1D() * 6)));
       if (lobe.fresnel == Fresnel::schlick) lobe.eta = randomColor(rng);
       if (lobe.fresnel == Fresnel::conductor)

@@ -42,6 +42,13 @@ constexpr std::array<Row, 5> kBeckmann{{
     {1.00f, {{{1, 0.5255f}, {0, 1}, {0, 1}}}},  // 0.176
 }};
 
+// A Gaussian over the half vector is one over the reflected direction: at normal incidence
+// cos(theta / 2) - 1 = -theta^2 / 8 + ..., so that its sharpness is a quarter.
+constexpr std::array<Row, 2> kSphericalGaussian{{
+    {0.1f, {{{1, 0.5f}, {0, 1}, {0, 1}}}},
+    {1.f, {{{1, 0.5f}, {0, 1}, {0, 1}}}},
+}};
+
 // Linear between rows: shares as they are, widths in their logarithm.
 ShapeComponents interpolate(std::span<const Row> rows, float alpha) {
   size_t i = 0;
@@ -66,6 +73,7 @@ ShapeComponents componentsOf(Distribution distribution, float alpha, int limit) 
   std::span<const Row> rows = kBeckmann;
   if (distribution == Distribution::ggx) rows = kGgx;
   if (distribution == Distribution::gtr1) rows = kGtr1;
+  if (distribution == Distribution::sphericalGaussian) rows = kSphericalGaussian;
   ShapeComponents components = interpolate(rows, std::max(alpha, 1e-6f));
   if (components.count > limit) {
     components.count = 1;

@@ -186,6 +186,11 @@ const ShapeTable* tableOf(const Lobe& lobe) {
     static const ShapeTable table(prototype(microfacetReflection, Distribution::ggx, 0));
     return &table;
   }
+  if (lobe.distribution == Distribution::sphericalGaussian) {
+    static const ShapeTable table(
+        prototype(microfacetReflection, Distribution::sphericalGaussian, 0));
+    return &table;
+  }
   if (lobe.distribution == Distribution::gtr1) return nullptr;
   static const ShapeTable table(prototype(microfacetReflection, Distribution::beckmann, 0));
   return &table;

@@ -85,6 +85,15 @@ Vec3f sampleGtr1(float alpha, Vec2f u) {
   return {s * std::cos(phi), s * std::sin(phi), std::sqrt(std::clamp(1 - sin2, 0.f, 1.f))};
 }
 
+// von Mises-Fisher about the normal, its lower half left out.
+Vec3f sampleSphericalGaussian(float alpha, Vec2f u) {
+  const float sharpness = 2 / sqr(alpha);
+  const float depth = -std::log1p(u.y * std::expm1(-sharpness)) / sharpness;  // 1 - cosine
+  const float s = std::sqrt(std::clamp(depth * (2 - depth), 0.f, 1.f));
+  const float phi = kTwoPi * u.x;
+  return {s * std::cos(phi), s * std::sin(phi), std::max(1 - depth, 1e-7f)};
+}
+
 // The exact Smith term of Beckmann for one direction.
 float beckmannMasking(float alphaX, float alphaY, Vec3f w) {
   const float t = std::sqrt(sqr(alphaX * w.x) + sqr(alphaY * w.y));
@@ -122,6 +131,8 @@ Vec3f sampleMicroNormal(Distribution distribution, float alphaX, float alphaY, V
       return samplePhong(alphaX, alphaY, u);
     case Distribution::gtr1:
       return sampleGtr1(alphaX, u);
+    case Distribution::sphericalGaussian:
+      return sampleSphericalGaussian(alphaX, u);
     case Distribution::ggx:
       break;
   }
@@ -136,6 +147,10 @@ float microNormalPdf(Distribution distribution, float alphaX, float alphaY, Vec3
     case Distribution::phong:
     case Distribution::gtr1:
       return density * m.z;
+    case Distribution::sphericalGaussian: {
+      const float sharpness = 2 / sqr(alphaX);
+      return density * core::sgProjectedIntegral(sharpness) / (kTwoPi * core::expRatio(sharpness));
+    }
     case Distribution::beckmann:
       return density * beckmannMasking(alphaX, alphaY, w) * std::max(cosine, 0.f) / w.z;
     case Distribution::ggx:

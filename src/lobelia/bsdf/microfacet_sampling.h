@@ -4,7 +4,7 @@
 // with Spherical Caps"). Beckmann: visible normals by numerical inversion (Jakob 2014, "An Improved
 // Visible Normal Sampling Routine for the Beckmann Distribution", here with a bracketed Newton
 // iteration). Phong (Ashikhmin and Shirley 2000) and GTR1 (Burley 2012): the whole distribution,
-// D cos.
+// D cos; spherical Gaussians: D itself, a von Mises-Fisher distribution.
 #pragma once
 
 #include "lobelia/base/vec.h"
