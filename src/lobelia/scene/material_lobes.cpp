@@ -213,6 +213,8 @@ void addLobes(const Scene& scene, const Material& material, const TextureContext
       return addRoughPlastic(b);
     case MaterialType::principled:
       return addPrincipledLobes(scene, material, at, weight, twoSided, bsdf);
+    case MaterialType::sphericalGaussians:
+      return addCapturedLobes(scene, material, at, cosThetaO, weight, twoSided, bsdf);
     case MaterialType::phong:
       return addPhong(b);
     case MaterialType::ward:

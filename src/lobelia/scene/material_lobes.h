@@ -18,5 +18,8 @@ void addLobes(const Scene& scene, const Material& material, const TextureContext
 // The principled material (material_principled.cpp).
 void addPrincipledLobes(const Scene& scene, const Material& material, const TextureContext& at,
                         float weight, bool twoSided, Bsdf& bsdf);
+// Captured reflectance (material_captured.cpp).
+void addCapturedLobes(const Scene& scene, const Material& material, const TextureContext& at,
+                      float cosThetaO, float weight, bool twoSided, Bsdf& bsdf);
 
 }  // namespace lobelia

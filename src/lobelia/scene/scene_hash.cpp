@@ -98,10 +98,12 @@ class StreamHash {
                                 &m.coatAlphaV}) {
       add(*f);
     }
+    word(m.capturedLobes.size());
+    for (const CapturedLobe& lobe : m.capturedLobes) add(lobe.amplitude), add(lobe.sharpness);
   }
   void add(const Emitter& e) {
     add(e.type), add(e.toWorld), add(e.radiance), add(e.scale), add(e.image), add(e.cutoff);
-    add(e.beamWidth), add(e.pattern), add(e.fov), add(e.direction);
+    add(e.beamWidth), add(e.pattern), add(e.fov), add(e.direction), add(e.angularRadius);
   }
   void add(const Mesh& m) {
     array(m.positions), array(m.normals), array(m.uvs), array(m.triangles);

@@ -57,6 +57,8 @@ class Needs {
         return {2, 0};
       case MaterialType::principled:
         return {principledLobes(m), 0};
+      case MaterialType::sphericalGaussians:
+        return {1 + static_cast<int>(std::min<size_t>(m.capturedLobes.size(), 1000)), 0};
       case MaterialType::twoSided: {
         const Need a = of(m.a, level), b = of(m.b, level);
         return {std::max(a.lobes, b.lobes), 1 + std::max(a.depth, b.depth)};

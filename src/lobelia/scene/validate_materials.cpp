@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "lobelia/bsdf/captured.h"
 #include "lobelia/scene/validate.h"
 
 namespace lobelia::validation {
@@ -155,6 +156,8 @@ std::vector<NamedColour> albedos(const Material& m) {
   switch (m.type) {
     case MaterialType::diffuse:
       return {diffuse};
+    case MaterialType::sphericalGaussians:
+      return {diffuse};
     case MaterialType::principled:
       return {{"base colour", &m.diffuse}};
     case MaterialType::diffuseTransmitter:
@@ -207,6 +210,10 @@ bool checkHandles(const Scene& scene, const Material& m, const std::string& who,
                                                          {"weight", &m.weight}}}) {
     texture(f.name, f.value->texture);
   }
+  for (const CapturedLobe& lobe : m.capturedLobes) {
+    texture("amplitude", lobe.amplitude.texture);
+    texture("sharpness", lobe.sharpness.texture);
+  }
   texture("map", m.map);
   for (MaterialHandle h : children(m)) {
     if (h.index < scene.materials.size()) continue;
@@ -247,6 +254,42 @@ void checkValues(const Scene& scene, const Material& m, const std::string& who,
       findings.error(
           fmt::format("{}: a roughness of {}; it must be finite and 0 or more", who, alpha->value));
     }
+  }
+}
+
+void checkCaptured(const Scene& scene, const Material& m, const std::string& who,
+                   Findings& findings) {
+  if (m.ior < 1) {
+    findings.error(fmt::format(
+        "{}: an index of refraction of {}; spherical Gaussians have 1 (no Fresnel term) or more",
+        who, m.ior));
+  }
+  Rgb weights{};
+  for (size_t i = 0; i < m.capturedLobes.size(); ++i) {
+    const ColorParam& amplitude = m.capturedLobes[i].amplitude;
+    const FloatParam& sharpness = m.capturedLobes[i].sharpness;
+    const bool textured = amplitude.texture.valid();
+    if (!textured && !(isFinite(amplitude.value) && minComponent(amplitude.value) >= 0)) {
+      findings.error(fmt::format("{}: amplitude {} must be finite and 0 or more", who, i));
+      return;
+    }
+    if (!sharpness.texture.valid() && !std::isfinite(sharpness.value)) {
+      findings.error(fmt::format("{}: sharpness {} is not finite", who, i));
+      return;
+    }
+    if (!sharpness.texture.valid() && sharpness.value < kMinCapturedSharpness) {
+      findings.warning(fmt::format("{}: sharpness {} is {:.4g}; below {} it counts as {}", who, i,
+                                   sharpness.value, kMinCapturedSharpness, kMinCapturedSharpness));
+    }
+    // Textured amplitudes and sharpnesses belong together point by point: their means say little.
+    if (!textured && !sharpness.texture.valid())
+      weights += amplitude.value * projectedIntegral(sharpness.value);
+  }
+  const Rgb diffuse = m.diffuse.texture.valid() ? mean(scene, m.diffuse) : m.diffuse.value;
+  const float scale = capturedScale(diffuse, weights, m.ior);
+  if (scale < 0.99f) {
+    findings.warning(fmt::format(
+        "{}: its lobes would reflect more than they receive; all is scaled by {:.3g}", who, scale));
   }
 }
 
@@ -310,6 +353,8 @@ bool checkMaterials(const Scene& scene, bool texturesValid, Findings& findings) 
     const bool handles = checkHandles(scene, m, who, findings);
     valid = valid && handles;
     if (handles && texturesValid) checkValues(scene, m, who, findings);
+    if (handles && texturesValid && m.type == MaterialType::sphericalGaussians)
+      checkCaptured(scene, m, who, findings);
   }
   if (!valid) return false;
   const auto cycle =
