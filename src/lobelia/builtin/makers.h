@@ -13,4 +13,8 @@ Scene makeStudyPane(float detail);
 Scene makeStudyMirror(float detail);
 Scene makeStudyRoom(float detail);
 
+Scene makeBox(float detail);
+enum class TableauFloor : uint8_t { constant, stripes, ward };
+Scene makeTableau(float detail, TableauFloor floor);
+
 }  // namespace lobelia::builtin

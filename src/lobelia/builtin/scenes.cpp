@@ -10,6 +10,11 @@
 namespace lobelia::builtin {
 namespace {
 
+template <TableauFloor floor>
+Scene tableau(float detail) {
+  return makeTableau(detail, floor);
+}
+
 constexpr BuiltinScene kBuiltins[] = {
     {"cornell", makeCornell, 51288, "A glossy Cornell box with a golden knot"},
     {"study-diffuse", makeStudyDiffuse, 9966, "Rounded box for studies: Lambert"},
@@ -17,6 +22,13 @@ constexpr BuiltinScene kBuiltins[] = {
     {"study-ggx", makeStudyGgx, 9966, "Rounded box for studies: GGX metals and lacquer"},
     {"study-pane", makeStudyPane, 9976, "Rounded box for studies: lit through a glass pane"},
     {"study-mirror", makeStudyMirror, 9968, "Rounded box for studies: with a mirror"},
+    {"box", makeBox, 135000, "Glossy Cornell box with a dragon and a flowered screen [P000]"},
+    {"tableau", tableau<TableauFloor::constant>, 222000,
+     "Three glossy sculptures on a glossy floor [P000]"},
+    {"tableau-stripes", tableau<TableauFloor::stripes>, 222000,
+     "tableau, the floor's gloss in stripes"},
+    {"tableau-ward", tableau<TableauFloor::ward>, 222000,
+     "tableau, the floor of brushed metal [P003]"},
     {"study-room", makeStudyRoom, 100354, "Closed wavy room for measuring rates of rays"},
 };
 
