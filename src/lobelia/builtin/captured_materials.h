@@ -13,10 +13,10 @@ namespace lobelia::builtin {
 // reflect alike in all, but the flowers more and in narrower lobes. `repeats`: copies of the
 // pattern (one flower and four quarters) along u and v of the unit square.
 struct SatinStyle {
-  Rgb dye{0.45f, 0.06f, 0.09f};     // diffuse reflectance of the ground
-  Rgb sheen{0.62f, 0.36f, 0.3f};    // reflectance of the flowers' threads, ground: a third of it
+  Rgb dye{0.45f, 0.06f, 0.09f};   // diffuse reflectance of the ground
+  Rgb sheen{0.62f, 0.36f, 0.3f};  // reflectance of the flowers' threads, ground: a third of it
   float flowerSharpness = 90, groundSharpness = 12;
-  int resolution = 512;             // pixels of the textures along u and v
+  int resolution = 512;  // pixels of the textures along u and v
   float repeats = 1;
 };
 MaterialHandle addSatin(SceneBuilder& builder, const SatinStyle& style = {},
