@@ -140,39 +140,6 @@ TEST_F(GatherAll, SpotsAndProjectorsKeepTheirPattern) {
   EXPECT_GT(lit, 30u);
 }
 
-TEST(EmissionPattern, SpotFallsLinearlyInAngle) {
-  Scene scene;
-  Emitter spot;
-  spot.type = EmitterType::spot;
-  spot.cutoff = 0.6f;
-  spot.beamWidth = 0.2f;
-  scene.emitters = {spot};
-  const auto at = [&](float angle) {
-    return gather::emissionPattern(scene, 0, Vec3f(std::sin(angle), 0, std::cos(angle)) * 3.f).x;
-  };
-  EXPECT_FLOAT_EQ(at(0.1f), 1.f);
-  EXPECT_NEAR(at(0.4f), 0.5f, 1e-5f);
-  EXPECT_NEAR(at(0.5f), 0.25f, 1e-5f);
-  EXPECT_EQ(at(0.7f), 0.f);
-}
-
-TEST(EmissionPattern, ProjectorLightsAnUprightPlaneEvenly) {
-  // Irradiance on the plane at distance one: intensity cos / d^2 = picture cos^-3 cos^3.
-  Scene scene;
-  Emitter projector;
-  projector.type = EmitterType::projector;
-  projector.radiance = Rgb(0.3f, 0.6f, 0.9f);
-  projector.fov = 1.5f;
-  scene.emitters = {projector};
-  for (const float x : {-0.8f, 0.f, 0.5f}) {
-    const float cosine = 1 / std::sqrt(1 + x * x);
-    const Rgb value = gather::emissionPattern(scene, 0, Vec3f(x, 0, 1) * 2.f);
-    EXPECT_NEAR(value.y * cosine * cosine * cosine, 0.6f, 1e-5f);
-  }
-  EXPECT_EQ(gather::emissionPattern(scene, 0, {1.1f, 0, 1}), Rgb(0.f));
-  EXPECT_EQ(gather::emissionPattern(scene, 0, {0, 0, -1}), Rgb(0.f));
-}
-
 TEST_F(GatherAll, SameBitsForAnyNumberOfThreads) {
   const Receivers receivers = randomReceivers(
       700, {LobeType::lambert, LobeType::microfacetReflection, LobeType::phong}, 2, 13);

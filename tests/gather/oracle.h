@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "gather/random_input.h"
-#include "lobelia/gather/emission_pattern.h"
+#include "lobelia/path/emission_pattern.h"
 
 namespace lobelia::test {
 
@@ -62,11 +62,14 @@ class Oracle {
     if (!(largest > 0) || !sees(point, to)) return {};
     return f * toDouble(intensity) * (clamp > 0 && largest > clamp ? clamp / largest : 1.0);
   }
+  Rgb patternOf(uint32_t emitter, Vec3f d) const {
+    const EmissionPattern pattern(tracer_.scene(), tracer_.scene().emitters[emitter]);
+    return pattern.at(pattern.toLocal(d));
+  }
   Vec3d omni(const ReceiverPoint& point, const OmniLight& light) const {
     const Vec3d d = toDouble(point.p) - toDouble(light.p);
     Rgb intensity = light.intensity;
-    if (light.emitter != 0xffffffffu)
-      intensity *= gather::emissionPattern(tracer_.scene(), light.emitter, toFloat(d));
+    if (light.emitter != 0xffffffffu) intensity *= patternOf(light.emitter, toFloat(d));
     return finite(point, light.p, 1 / lengthSquared(d), intensity);
   }
   Vec3d directional(const ReceiverPoint& point, const DirectionalLight& light) const {

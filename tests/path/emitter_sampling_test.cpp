@@ -155,6 +155,7 @@ INSTANTIATE_TEST_SUITE_P(All, EmitterSampling,
                                          Lighting::manyTriangles, Lighting::point, Lighting::spot,
                                          Lighting::projector, Lighting::directional,
                                          Lighting::constant, Lighting::environment,
+                                         Lighting::goniometric, Lighting::sun, Lighting::sunAndSky,
                                          Lighting::mixed),
                          [](const auto& i) { return std::string(test::nameOf(i.param)); });
 

@@ -67,7 +67,8 @@ INSTANTIATE_TEST_SUITE_P(All, LightTracer,
                                          Lighting::meshSphere, Lighting::manyTriangles,
                                          Lighting::point, Lighting::spot, Lighting::projector,
                                          Lighting::directional, Lighting::constant,
-                                         Lighting::environment, Lighting::mixed),
+                                         Lighting::environment, Lighting::goniometric,
+                                         Lighting::sun, Lighting::sunAndSky, Lighting::mixed),
                          [](const auto& i) { return std::string(test::nameOf(i.param)); });
 
 TEST(LightTracing, EqualsThePathTracerInAGlossyRoom) {

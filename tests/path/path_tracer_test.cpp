@@ -137,9 +137,9 @@ TEST(PathTracer, ComponentsAddUp) {
 
 // Next-event estimation against nothing but BSDF samples that meet emitters.
 TEST(PathTracer, AgreesWithBlindPathsUnderEveryExtendedEmitter) {
-  for (const Lighting l :
-       {Lighting::quad, Lighting::texturedQuad, Lighting::sphere, Lighting::meshSphere,
-        Lighting::insideOut, Lighting::constant, Lighting::environment}) {
+  for (const Lighting l : {Lighting::quad, Lighting::texturedQuad, Lighting::sphere,
+                           Lighting::meshSphere, Lighting::insideOut, Lighting::constant,
+                           Lighting::environment, Lighting::sun, Lighting::sunAndSky}) {
     Scene scene = test::stageScene();
     Material metal = materialOf(MaterialType::roughConductor);
     metal.alphaU = metal.alphaV = 0.3f;

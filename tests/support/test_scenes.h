@@ -102,12 +102,16 @@ enum class Lighting {
   directional,
   constant,
   environment,
+  goniometric,
+  sun,
+  sunAndSky,
   mixed,
 };
 inline const char* nameOf(Lighting l) {
   static constexpr const char* kNames[] = {
-      "quad", "texturedQuad", "sphere",      "meshSphere", "insideOut",   "manyTriangles", "point",
-      "spot", "projector",    "directional", "constant",   "environment", "mixed"};
+      "quad",        "texturedQuad", "sphere",    "meshSphere",  "insideOut", "manyTriangles",
+      "point",       "spot",         "projector", "directional", "constant",  "environment",
+      "goniometric", "sun",          "sunAndSky", "mixed"};
   return kNames[static_cast<int>(l)];
 }
 
@@ -204,6 +208,28 @@ inline void addLighting(Scene& scene, Lighting lighting) {
       emitter.image = {static_cast<uint32_t>(scene.images.size() - 1)};
       break;
     }
+    case Lighting::goniometric: {
+      emitter.type = EmitterType::goniometric;
+      emitter.radiance = Rgb(2, 3, 2.5f);
+      emitter.scale = 1.5f;
+      Image image;
+      image.width = 16, image.height = 9, image.channels = 1;
+      for (int i = 0; i < 16 * 9; ++i)
+        image.pixels.push_back(i / 16 < 4 ? 1 + static_cast<float>(i % 5) : 0.1f);
+      scene.images.push_back(std::move(image));
+      emitter.image = {static_cast<uint32_t>(scene.images.size() - 1)};
+      break;
+    }
+    case Lighting::sun:
+      emitter.type = EmitterType::sun;
+      emitter.radiance = Rgb(3, 2.5f, 2);
+      emitter.direction = normalize(Vec3f{0.3f, -1, 0.4f});
+      emitter.angularRadius = 0.3f;
+      break;
+    case Lighting::sunAndSky:
+      addLighting(scene, Lighting::sun);
+      addLighting(scene, Lighting::environment);
+      return;
     case Lighting::mixed:
       for (const Lighting l : {Lighting::quad, Lighting::sphere, Lighting::spot, Lighting::point,
                                Lighting::directional, Lighting::environment, Lighting::constant}) {

@@ -27,6 +27,10 @@ const char* name(EmitterType type) {
       return "environment";
     case EmitterType::projector:
       return "projector";
+    case EmitterType::goniometric:
+      return "goniometric";
+    case EmitterType::sun:
+      return "sun";
   }
   return "";
 }

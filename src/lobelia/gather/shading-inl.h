@@ -10,9 +10,9 @@
 #endif
 
 #include "lobelia/bsdf/kernels-inl.h"
-#include "lobelia/gather/emission_pattern.h"
 #include "lobelia/gather/facing-inl.h"
 #include "lobelia/gather/kernels.h"
+#include "lobelia/path/emission_pattern.h"
 
 LOBELIA_CORE_BEGIN
 
@@ -153,15 +153,17 @@ void addLobes(const g::Tile& tile, const g::PointStrip& strip, size_t lane, Pair
   }
 }
 
-// Multiplies by the directional pattern of a spot or projector: a few lights, done point by point.
+// Multiplies by the directional pattern of a spot, projector or goniometric emitter: a few lights,
+// done point by point.
 inline void applyPattern(const g::PointStrip& strip, size_t lane, const g::PreparedLight& light,
                          const Scene& scene, size_t i, PairScratch* pairs) {
+  const EmissionPattern pattern(scene, scene.emitters[light.emitter]);
   for (size_t k = 0; k < kLanes; ++k) {
     const Vec3f p = strip.p.get(static_cast<int>(lane + k));
-    const Rgb pattern = g::emissionPattern(scene, light.emitter, p - light.p);
-    pairs->r[i].v[k] *= pattern.x;
-    pairs->g[i].v[k] *= pattern.y;
-    pairs->b[i].v[k] *= pattern.z;
+    const Rgb value = pattern.at(pattern.toLocal(p - light.p));
+    pairs->r[i].v[k] *= value.x;
+    pairs->g[i].v[k] *= value.y;
+    pairs->b[i].v[k] *= value.z;
   }
 }
 

@@ -159,7 +159,7 @@ class SphereGrid {
       const double theta = (y * block_ + j) * dTheta;
       const float solid = static_cast<float>(dPhi * (std::cos(theta) - std::cos(theta + dTheta)));
       for (int i = 0; i < block_; ++i) {
-        const Rgb c = emitters.escaped(
+        const Rgb c = emitters.environment(
             direction((x * block_ + i + 0.5) * dPhi, std::cos(theta + 0.5 * dTheta)));
         if (isFinite(c)) total += Vec3d(c.x, c.y, c.z) * static_cast<double>(solid);
       }
@@ -202,7 +202,9 @@ struct Stratum {
 std::vector<DirectionalLight> environmentLights(const EmitterSampler& emitters, size_t count,
                                                 uint64_t seed) {
   const auto& all = emitters.scene().emitters;
-  if (count == 0 || std::none_of(all.begin(), all.end(), isEnvironment)) return {};
+  const auto first = std::find_if(all.begin(), all.end(), isEnvironment);
+  if (count == 0 || first == all.end()) return {};
+  const uint32_t emitter = static_cast<uint32_t>(first - all.begin());
   const SphereGrid grid(emitters, count);
   if (!(grid.energy(grid.all()) > 0)) return {};
 
@@ -229,7 +231,8 @@ std::vector<DirectionalLight> environmentLights(const EmitterSampler& emitters, 
   lights.reserve(done.size());
   for (const Rect& r : done) {
     const Rgb irradiance = grid.integral(r);
-    if (maxComponent(irradiance) > 0) lights.push_back({grid.sampleDirection(r, rng), irradiance});
+    if (maxComponent(irradiance) > 0)
+      lights.push_back({grid.sampleDirection(r, rng), irradiance, emitter});
   }
   return lights;
 }

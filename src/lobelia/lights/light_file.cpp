@@ -13,7 +13,7 @@ namespace lobelia {
 namespace {
 
 constexpr const char* kKind = "virtual-lights";
-constexpr uint32_t kVersion = 2;
+constexpr uint32_t kVersion = 3;
 
 // The chunk "settings".
 struct StoredSettings {
@@ -120,10 +120,13 @@ void requireFit(const std::string& file, const VirtualLights& lights, const Ligh
   if (!deepEnough)
     refuse(fmt::format("was made for paths of at most {} edges; use --max-depth {} or less",
                        lights.maxDepth, lights.maxDepth));
-  for (const OmniLight& l : lights.omni)
-    if (l.emitter != 0xffffffffu && l.emitter >= scene.emitters.size())
-      damaged(file, fmt::format("a light names emitter {}; the scene has {}", l.emitter,
+  const auto checkEmitter = [&](uint32_t emitter) {
+    if (emitter != 0xffffffffu && emitter >= scene.emitters.size())
+      damaged(file, fmt::format("a light names emitter {}; the scene has {}", emitter,
                                 scene.emitters.size()));
+  };
+  for (const OmniLight& l : lights.omni) checkEmitter(l.emitter);
+  for (const DirectionalLight& l : lights.directional) checkEmitter(l.emitter);
 }
 
 }  // namespace lobelia

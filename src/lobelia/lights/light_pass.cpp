@@ -12,6 +12,7 @@
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/lights/particle_walk.h"
+#include "lobelia/path/point_lights.h"
 
 namespace lobelia {
 namespace {
@@ -24,6 +25,7 @@ constexpr uint64_t kPilotStream = 0x70696c6f74ull, kStream = 0x6c6967687473ull;
 constexpr size_t kBatchSize = 512;
 constexpr uint64_t kMaxParticles = 0xffffffffull;  // Sampler's indices
 constexpr size_t kDefaultEnvironmentLights = 1024;
+constexpr size_t kLightsPerSun = 16;
 
 std::vector<ParticleBatch> traceParticles(const ParticleWalk& walk, uint64_t count,
                                           Context& context, bool report) {
@@ -121,15 +123,14 @@ void addEmitters(const EmitterSampler& emitters, const LightSettings& settings, 
   const Scene& scene = emitters.scene();
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
     const Emitter& e = scene.emitters[i];
-    const Rgb value = evaluate(scene, e.radiance, TextureContext{});
-    const Vec3f origin = e.toWorld.point(Vec3f(0.f));
-    if (e.type == EmitterType::point) lights->omni.push_back({origin, value, 0xffffffffu});
-    if (e.type == EmitterType::spot) lights->omni.push_back({origin, value, i});
-    // The picture, which varies, is wholly left to the pattern.
-    if (e.type == EmitterType::projector) lights->omni.push_back({origin, Rgb(kPi * e.scale), i});
-    if (e.type == EmitterType::directional)
-      lights->directional.push_back({-normalize(e.direction), value});
+    if (isPointLike(e.type)) {
+      const bool plain = e.type == EmitterType::point;
+      lights->omni.push_back(
+          {e.toWorld.point(Vec3f(0.f)), EmissionPattern(scene, e).base(), plain ? 0xffffffffu : i});
+    }
   }
+  const auto suns = sunLights(scene, kLightsPerSun, seed);
+  lights->directional.insert(lights->directional.end(), suns.begin(), suns.end());
   const size_t count =
       settings.environmentLights > 0 ? settings.environmentLights : kDefaultEnvironmentLights;
   const auto environment = environmentLights(emitters, count, seed);

@@ -32,6 +32,10 @@ std::vector<DirectionalLight> environmentLights(const EmitterSampler& emitters, 
                                                 uint64_t seed);
 std::vector<DirectionalLight> environmentLights(const Scene& scene, size_t count, uint64_t seed);
 
+// Directional lights that stand for directional emitters (one each) and suns (`count` each, evenly
+// over their discs).
+std::vector<DirectionalLight> sunLights(const Scene& scene, size_t count, uint64_t seed);
+
 // Whole or not at all; refuses another scene's lights, wrong versions and damaged files
 // (InputError).
 void saveLights(const std::string& file, const VirtualLights& lights);

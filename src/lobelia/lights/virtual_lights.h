@@ -8,18 +8,19 @@
 
 namespace lobelia {
 
-// Uniform intensity in all directions, W/sr. Of a spot or projector `emitter` (0xffffffff: none)
-// gives the pattern that multiplies it: a spot's falloff and picture; a projector's picture / cos^3
-// of the angle to its axis, where intensity is pi * scale.
+// Uniform intensity in all directions, W/sr. Of all but plain points, `emitter` (0xffffffff: none)
+// gives the pattern that multiplies it: EmissionPattern::at(); the intensity is its base().
 struct OmniLight {
   Vec3f p;
   Rgb intensity;
   uint32_t emitter;
 };
-// Irradiance on a plane facing it; direction points to where the light comes from.
+// Irradiance on a plane facing it; direction points to where the light comes from. emitter: what
+// it stands for (of several environments, the first), 0xffffffff: unknown.
 struct DirectionalLight {
   Vec3f direction;
   Rgb irradiance;
+  uint32_t emitter = 0xffffffffu;
 };
 // Cosine lobe: intensity * max(0, n.w), W/sr. Normal octahedral, 2 x 16 bits (error < 5e-5 rad).
 struct DiffuseLight {

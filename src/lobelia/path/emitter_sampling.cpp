@@ -5,17 +5,14 @@
 //    of that evenly among these and half in proportion to the flux that they send into the scene.
 // A single emitter that is one light (a sphere, a lamp, an environment) has probability one; there
 // is no tree over two lights.
-//
-// Densities of all environments are added up and so are their radiances: the direction counts, not
-// which of them it was drawn from.
 #include "lobelia/path/emitter_sampling.h"
 
 #include <bit>
 
 #include "lobelia/base/random.h"
 #include "lobelia/path/emitter_tree.h"
-#include "lobelia/path/environment_sampling.h"
 #include "lobelia/path/finite_lights.h"
+#include "lobelia/path/infinite_lights.h"
 
 namespace lobelia {
 
@@ -24,65 +21,28 @@ constexpr size_t kFewLights = 2;  // the triangles of a quad: chosen by area, a 
 }
 
 struct EmitterSampler::Impl {
-  struct Infinite {
-    uint32_t emitter = 0;
-    bool directional = false;
-    Vec3f direction;  // directional: towards the light
-    Rgb irradiance;
-    size_t environment = 0;  // index into environments
-    double flux = 0;
-    float probability = 0;
-  };
-
   const Scene& scene;
   FiniteLights finite;
+  InfiniteLights infinite;
   EmitterTree tree;
   AliasTable uniform;               // finite lights, evenly by emitter
   std::vector<float> uniformShare;  // uniformProbability times the table's probabilities
-  std::vector<EnvironmentSampler> environments;
-  std::vector<Infinite> infinite;
   float treeProbability = 0, uniformProbability = 0;
   AliasTable rays;  // finite lights, then infinite ones, by flux
-  Vec3f centre;     // bounding sphere of the scene
-  float radius = 1;
 
-  Impl(const Scene& s, Bounds3f bounds) : scene(s), finite(s) {
-    if (!bounds.empty())
-      centre = bounds.centre(), radius = std::max(bounds.radius(), 1e-6f) * 1.0001f;
-    for (uint32_t e = 0; e < scene.emitters.size(); ++e) addInfinite(e);
+  Impl(const Scene& s, Bounds3f bounds)
+      : scene(s),
+        finite(s),
+        infinite(s, bounds.empty() ? Vec3f() : bounds.centre(),
+                 bounds.empty() ? 1.f : std::max(bounds.radius(), 1e-6f) * 1.0001f) {
     uniformShare.assign(finite.size(), 0);  // pdfHit() asks whether or not anything can be sampled
     std::vector<float> fluxes = finite.fluxes();
     double finiteFlux = 0;
     for (const float f : fluxes) finiteFlux += static_cast<double>(f);
     choose(finiteFlux);
-    for (const Infinite& light : infinite) fluxes.push_back(static_cast<float>(light.flux));
+    for (size_t i = 0; i < infinite.size(); ++i)
+      fluxes.push_back(static_cast<float>(infinite[i].flux));
     rays = AliasTable(fluxes);
-  }
-
-  void addInfinite(uint32_t e) {
-    const Emitter& emitter = scene.emitters[e];
-    const double disk = static_cast<double>(kPi * radius * radius);
-    Infinite light;
-    light.emitter = e;
-    if (emitter.type == EmitterType::directional) {
-      light.directional = true;
-      light.direction = -normalize(emitter.direction);
-      light.irradiance = mean(scene, emitter.radiance);
-      light.flux = disk * static_cast<double>(std::max(0.f, luminance(light.irradiance)));
-    } else if (emitter.type == EmitterType::constant || emitter.type == EmitterType::environment) {
-      light.environment = environments.size();
-      environments.emplace_back(scene, emitter);
-      light.flux = disk * environments.back().integral();
-    } else {
-      return;
-    }
-    // One that cannot be sampled is still seen: its non-finite radiance is to be counted, not
-    // hidden.
-    if (light.flux > 0 && std::isfinite(light.flux)) {
-      infinite.push_back(light);
-    } else if (!light.directional && light.flux == 0) {
-      environments.pop_back();
-    }
   }
 
   void choose(double finiteFlux) {
@@ -92,10 +52,10 @@ struct EmitterSampler::Impl {
     if (emitters == 0) return;
     const double slots = static_cast<double>(infinite.size() + (hasFinite ? 1 : 0));
     double flux = finiteFlux;
-    for (const Infinite& light : infinite) flux += light.flux;
-    for (Infinite& light : infinite) {
-      light.probability =
-          static_cast<float>(0.5 / emitters + 0.25 / slots + 0.25 * light.flux / flux);
+    for (size_t i = 0; i < infinite.size(); ++i) flux += infinite[i].flux;
+    for (size_t i = 0; i < infinite.size(); ++i) {
+      infinite.setProbability(
+          i, static_cast<float>(0.5 / emitters + 0.25 / slots + 0.25 * infinite[i].flux / flux));
     }
     if (!hasFinite) return;
     uniform = AliasTable(finite.uniformWeights());
@@ -112,38 +72,6 @@ struct EmitterSampler::Impl {
   float probability(uint32_t light, Vec3f p, Vec3f n) const {
     const float even = uniformShare[light];
     return treeProbability > 0 ? even + treeProbability * tree.probability(p, n, light) : even;
-  }
-
-  Rgb escaped(Vec3f d) const {
-    Rgb sum{};
-    for (const EnvironmentSampler& e : environments) sum += e.radiance(d);
-    return sum;
-  }
-
-  float pdfEscaped(Vec3f n, Vec3f d) const {
-    float sum = 0;
-    for (const Infinite& light : infinite) {
-      if (!light.directional) sum += light.probability * environments[light.environment].pdf(n, d);
-    }
-    return sum;
-  }
-
-  std::optional<EmitterDirection> sampleInfinite(const Infinite& light, Vec3f n, Vec2f u) const {
-    EmitterDirection out;
-    out.emitter = light.emitter;
-    out.distance = 3e38f;
-    if (light.directional) {
-      out.wi = light.direction;
-      out.delta = true;
-      out.weight = light.irradiance / light.probability;
-      return out;
-    }
-    float pdf;
-    out.wi = environments[light.environment].sample(n, u, &pdf);
-    if (!(pdf > 0)) return std::nullopt;
-    out.pdf = environments.size() == 1 ? pdf * light.probability : pdfEscaped(n, out.wi);
-    out.weight = escaped(out.wi) / out.pdf;
-    return out;
   }
 
   std::optional<EmitterDirection> sampleFinite(uint32_t light, float chosen, Vec3f p,
@@ -175,8 +103,9 @@ double EmitterSampler::power() const { return impl_->rays.total(); }
 std::optional<EmitterDirection> EmitterSampler::sampleDirection(Vec3f p, Vec3f n, Vec3f u) const {
   const Impl& impl = *impl_;
   float choice = u.x;
-  for (const Impl::Infinite& light : impl.infinite) {
-    if (choice < light.probability) return impl.sampleInfinite(light, n, {u.y, u.z});
+  for (size_t i = 0; i < impl.infinite.size(); ++i) {
+    const InfiniteLight& light = impl.infinite[i];
+    if (choice < light.probability) return impl.infinite.sample(light, n, {u.y, u.z});
     choice -= light.probability;
   }
   if (choice < impl.treeProbability) {
@@ -205,7 +134,7 @@ float EmitterSampler::pdfHit(Vec3f p, Vec3f n, const SurfacePoint& hit, Vec3f wi
 }
 
 float EmitterSampler::pdfEscaped(Vec3f, Vec3f n, Vec3f wi) const {
-  return impl_->pdfEscaped(n, wi);
+  return impl_->infinite.pdfEscaped(n, wi);
 }
 
 Rgb EmitterSampler::emitted(const SurfacePoint& hit, Vec3f wo) const {
@@ -213,7 +142,8 @@ Rgb EmitterSampler::emitted(const SurfacePoint& hit, Vec3f wo) const {
   return evaluate(impl_->scene, impl_->scene[hit.emitter].radiance, hit.texture);
 }
 
-Rgb EmitterSampler::escaped(Vec3f d) const { return impl_->escaped(d); }
+Rgb EmitterSampler::escaped(Vec3f d) const { return impl_->infinite.escaped(d); }
+Rgb EmitterSampler::environment(Vec3f d) const { return impl_->infinite.environment(d); }
 
 std::optional<EmittedRay> EmitterSampler::sampleRay(float uSelect, Vec2f uPosition,
                                                     Vec2f uDirection) const {
@@ -222,31 +152,13 @@ std::optional<EmittedRay> EmitterSampler::sampleRay(float uSelect, Vec2f uPositi
   const size_t chosen = impl.rays.sample(uSelect);
   const float probability = impl.rays.probability(chosen);
   if (!(probability > 0)) return std::nullopt;
-  if (chosen < impl.finite.size()) {
-    EmittedRay out = impl.finite.sampleRay(static_cast<uint32_t>(chosen), uPosition, uDirection);
-    out.power /= probability;
-    return out;
-  }
-  const Impl::Infinite& light = impl.infinite[chosen - impl.finite.size()];
-  EmittedRay out;
-  out.emitter = light.emitter;
-  out.infinite = true;
-  const float disk = kPi * impl.radius * impl.radius;
-  Vec3f towards = light.direction;
-  if (light.directional) {
-    out.power = light.irradiance * (disk / probability);
-  } else {
-    const EnvironmentSampler& environment = impl.environments[light.environment];
-    float pdf;
-    towards = environment.sample({}, uDirection, &pdf);
-    if (!(pdf > 0)) return std::nullopt;
-    out.power = environment.radiance(towards) * (disk / (pdf * probability));
-  }
-  const Frame frame = frameFromNormal(towards);
-  const Vec2f d = sampleDiskConcentric(uPosition);
-  out.ray.o = impl.centre + (towards + frame.s * d.x + frame.t * d.y) * impl.radius;
-  out.ray.d = -towards;
-  out.ng = out.ray.d;
+  std::optional<EmittedRay> out;
+  if (chosen < impl.finite.size())
+    out = impl.finite.sampleRay(static_cast<uint32_t>(chosen), uPosition, uDirection);
+  else
+    out =
+        impl.infinite.sampleRay(impl.infinite[chosen - impl.finite.size()], uPosition, uDirection);
+  if (out) out->power /= probability;
   return out;
 }
 

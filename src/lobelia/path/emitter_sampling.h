@@ -31,7 +31,8 @@ struct EmittedRay {  // a particle
 // Towards a point, finite emitters (each triangle of an area emitter for itself) are chosen through
 // a tree, so that 10^6 emissive triangles cost O(log n) and near ones are preferred (Conty Estevez
 // and Kulla 2018), mixed with a uniform choice; particles leave in proportion to flux. Spheres are
-// sampled by the cone they subtend; environments by luminance. All functions are thread-safe.
+// sampled by the cone they subtend, suns by their disc, environments by luminance. All functions
+// are thread-safe.
 class EmitterSampler {
  public:
   EmitterSampler(const Scene& scene, Bounds3f sceneBounds);
@@ -47,8 +48,10 @@ class EmitterSampler {
   float pdfEscaped(Vec3f p, Vec3f n, Vec3f wi) const;
   // Emitted radiance of a hit towards wo; 0 from the back.
   Rgb emitted(const SurfacePoint& hit, Vec3f wo) const;
-  // Radiance from environments along an escaping ray of direction d.
+  // Radiance from environments and the discs of suns along an escaping ray of direction d; of
+  // environments alone.
   Rgb escaped(Vec3f d) const;
+  Rgb environment(Vec3f d) const;
 
   std::optional<EmittedRay> sampleRay(float uSelect, Vec2f uPosition, Vec2f uDirection) const;
   double power() const;  // total flux (luminance) of what sampleRay draws from

@@ -76,10 +76,9 @@ FiniteLights::FiniteLights(const Scene& scene) : scene_(scene) {
     firstLight_[spheres_[s].instance] = firstSphere() + s;
   }
   for (uint32_t e = 0; e < scene.emitters.size(); ++e) {
-    const EmitterType type = scene.emitters[e].type;
-    if (type == EmitterType::point || type == EmitterType::spot || type == EmitterType::projector) {
-      addPoint(e);
-    }
+    if (!isPointLike(scene.emitters[e].type)) continue;
+    points_.emplace_back(scene, e);
+    ++emitterCount_;
   }
 }
 
@@ -113,63 +112,6 @@ void FiniteLights::addInstance(uint32_t index) {
   for (size_t t = first; t < triangles_.size(); ++t)
     area += static_cast<double>(triangles_[t].area());
   instanceArea_[index] = static_cast<float>(area);
-}
-
-void FiniteLights::addPoint(uint32_t index) {
-  const Emitter& emitter = scene_.emitters[index];
-  PointLight light;
-  light.emitter = index;
-  light.position = emitter.toWorld.point({});
-  for (size_t r = 0; r < 3; ++r) {
-    const auto& to = emitter.toWorld.to.m[r];
-    const auto& from = emitter.toWorld.from.m[r];
-    light.rows[r] = {static_cast<float>(to[0]), static_cast<float>(to[1]),
-                     static_cast<float>(to[2])};
-    light.inverseRows[r] = {static_cast<float>(from[0]), static_cast<float>(from[1]),
-                            static_cast<float>(from[2])};
-  }
-  light.axis = normalize(emitter.toWorld.vector({0, 0, 1}));
-  const Rgb value = mean(scene_, emitter.radiance);
-  if (emitter.type == EmitterType::point) {
-    light.peak = luminance(value);
-  } else if (emitter.type == EmitterType::spot) {
-    light.cosCutoff = std::cos(emitter.cutoff);
-    light.cosBeam = std::cos(std::min(emitter.beamWidth, emitter.cutoff));
-    light.tanX = light.tanY = std::tan(emitter.cutoff);
-    Rgb factor(1.f);
-    if (emitter.pattern.valid()) factor = mean(scene_, ColorParam(emitter.pattern));
-    light.peak = luminance(value * factor);
-  } else {
-    // Pixels are square: the picture's shape is that of its bitmap.
-    float aspect = 1;
-    int nx = 1, ny = 1;
-    TextureHandle texture = emitter.radiance.texture;
-    while (texture.valid() && scene_[texture].type == TextureType::scale)
-      texture = scene_[texture].a;
-    if (texture.valid() && scene_[texture].image.valid()) {
-      const Image& image = scene_[scene_[texture].image];
-      aspect = static_cast<float>(image.width) / static_cast<float>(image.height);
-      nx = std::clamp(image.width, 1, 1024), ny = std::clamp(image.height, 1, 1024);
-    }
-    light.tanX = std::tan(0.5f * emitter.fov);
-    light.tanY = light.tanX / aspect;
-    light.cosCutoff = 1 / std::sqrt(1 + light.tanX * light.tanX + light.tanY * light.tanY);
-    light.cosBeam = light.cosCutoff;
-    std::vector<float> weights(static_cast<size_t>(nx) * static_cast<size_t>(ny));
-    for (int y = 0; y < ny; ++y) {
-      for (int x = 0; x < nx; ++x) {
-        TextureContext at;
-        at.uv = {(static_cast<float>(x) + 0.5f) / static_cast<float>(nx),
-                 (static_cast<float>(y) + 0.5f) / static_cast<float>(ny)};
-        weights[static_cast<size_t>(y) * static_cast<size_t>(nx) + static_cast<size_t>(x)] =
-            luminance(evaluate(scene_, emitter.radiance, at)) + 0.05f * luminance(value) + 1e-20f;
-      }
-    }
-    light.film = Distribution2D(weights, nx, ny);
-    light.peak = kPi * emitter.scale * luminance(value) / (light.cosCutoff * light.cosCutoff);
-  }
-  points_.push_back(std::move(light));
-  ++emitterCount_;
 }
 
 Rgb FiniteLights::radiance(const TriangleLight& light, float b1, float b2) const {
@@ -227,15 +169,7 @@ std::vector<float> FiniteLights::fluxes() const {
     result[firstSphere() + i] =
         4 * kPi * kPi * r * r * std::max(0.f, luminance(radiance(spheres_[i])));
   }
-  for (size_t i = 0; i < points_.size(); ++i) {
-    const PointLight& light = points_[i];
-    // A spot's linear fall-off is taken half way.
-    const float solidAngle = kTwoPi * (1 - 0.5f * (light.cosCutoff + light.cosBeam));
-    const bool projector = scene_.emitters[light.emitter].type == EmitterType::projector;
-    result[firstPoint() + i] =
-        projector ? light.peak * light.cosCutoff * light.cosCutoff * 4 * light.tanX * light.tanY
-                  : light.peak * (light.cosCutoff <= -1 ? 4 * kPi : solidAngle);
-  }
+  for (size_t i = 0; i < points_.size(); ++i) result[firstPoint() + i] = points_[i].flux();
   for (float& flux : result) flux = usable(flux);
   return result;
 }
@@ -258,54 +192,16 @@ std::vector<TreeLight> FiniteLights::treeLights() const {
     out.cosThetaO = -1;
     out.intensity = kPi * r * r * std::max(0.f, luminance(radiance(spheres_[i])));
   }
-  for (size_t i = 0; i < points_.size(); ++i) {
-    TreeLight& out = result[firstPoint() + i];
-    const PointLight& light = points_[i];
-    out.bounds.add(light.position);
-    out.axis = light.axis;
-    out.cosThetaO = light.cosCutoff;
-    out.cosThetaE = 1;
-    out.intensity = std::max(0.f, light.peak);
-  }
+  for (size_t i = 0; i < points_.size(); ++i) result[firstPoint() + i] = points_[i].treeLight();
   for (TreeLight& light : result) light.intensity = usable(light.intensity);
   return result;
 }
 
 uint32_t FiniteLights::emitter(uint32_t light) const {
-  if (isPoint(light)) return points_[light - firstPoint()].emitter;
+  if (isPoint(light)) return points_[light - firstPoint()].emitter();
   const uint32_t instance =
       light < firstSphere() ? triangles_[light].instance : spheres_[light - firstSphere()].instance;
   return scene_.instances[instance].emitter.index;
-}
-
-// Mitsuba 3's spot (linear in the angle, picture over the tangent plane of the cutoff) and
-// projector (irradiance pi times the picture on the plane at distance one, square pixels).
-Rgb FiniteLights::intensity(const PointLight& light, Vec3f local) const {
-  const Emitter& emitter = scene_.emitters[light.emitter];
-  TextureContext at;
-  if (emitter.type == EmitterType::point) return evaluate(scene_, emitter.radiance, at);
-  const float len = length(local);
-  const float cosine = local.z / len;
-  if (emitter.type == EmitterType::spot) {
-    if (!(cosine > light.cosCutoff)) return {};
-    float falloff = 1;
-    if (cosine < light.cosBeam) {
-      falloff = (emitter.cutoff - std::acos(cosine)) / (emitter.cutoff - emitter.beamWidth);
-    }
-    Rgb value = evaluate(scene_, emitter.radiance, at) * falloff;
-    if (emitter.pattern.valid()) {
-      at.uv = {0.5f + 0.5f * local.x / (local.z * light.tanX),
-               0.5f + 0.5f * local.y / (local.z * light.tanY)};
-      value *= evaluate(scene_, emitter.pattern, at);
-    }
-    return value;
-  }
-  if (!(cosine > 0)) return {};
-  at.uv = {0.5f - 0.5f * local.x / (local.z * light.tanX),
-           0.5f - 0.5f * local.y / (local.z * light.tanY)};
-  if (at.uv.x < 0 || at.uv.x > 1 || at.uv.y < 0 || at.uv.y > 1) return {};
-  return evaluate(scene_, emitter.radiance, at) *
-         (kPi * emitter.scale / (cosine * cosine * cosine));
 }
 
 std::optional<LightSample> FiniteLights::sample(uint32_t light, Vec3f p, Vec2f u) const {
@@ -344,15 +240,13 @@ std::optional<LightSample> FiniteLights::sample(uint32_t light, Vec3f p, Vec2f u
     return result;
   }
   const PointLight& point = points_[light - firstPoint()];
-  const Vec3f to = point.position - p;
+  const Vec3f to = point.position() - p;
   const float d2 = lengthSquared(to);
   if (!(d2 > 0)) return std::nullopt;
   result.distance = std::sqrt(d2);
   result.wi = to / result.distance;
-  result.target = point.position;
-  const Vec3f local{-dot(point.inverseRows[0], result.wi), -dot(point.inverseRows[1], result.wi),
-                    -dot(point.inverseRows[2], result.wi)};
-  result.value = intensity(point, local) / d2;
+  result.target = point.position();
+  result.value = point.intensityTowards(-result.wi) / d2;
   if (result.value == Rgb{}) return std::nullopt;
   return result;
 }
@@ -380,49 +274,25 @@ float FiniteLights::pdf(uint32_t light, Vec3f p, const SurfacePoint& hit, Vec3f 
 }
 
 EmittedRay FiniteLights::sampleRay(uint32_t light, Vec2f uPosition, Vec2f uDirection) const {
+  if (isPoint(light)) return points_[light - firstPoint()].sampleRay(uDirection);
   EmittedRay out;
   out.emitter = emitter(light);
-  if (light < firstPoint()) {
-    Vec3f at;
-    if (light < firstSphere()) {
-      const TriangleLight& triangle = triangles_[light];
-      const Vec2f b = sampleTriangleUniform(uPosition);
-      at = triangle.p0 + triangle.e1 * b.x + triangle.e2 * b.y;
-      out.ng = triangle.normal();
-      out.power = radiance(triangle, b.x, b.y) * (kPi * triangle.area());
-    } else {
-      const SphereLight& sphere = spheres_[light - firstSphere()];
-      out.ng = sampleSphereUniform(uPosition);
-      at = sphere.centre + out.ng * sphere.outer;
-      out.power = radiance(sphere) * (4 * kPi * kPi * sphere.radius * sphere.radius);
-    }
-    out.ray.d = frameFromNormal(out.ng).toWorld(sampleHemisphereCosine(uDirection));
-    const float error = light < firstSphere() ? triangles_[light].error : errorOf(at);
-    out.ray.o = offsetOrigin(at, out.ng, error, out.ray.d);
-    return out;
-  }
-  const PointLight& point = points_[light - firstPoint()];
-  const Emitter& source = scene_.emitters[point.emitter];
-  Vec3f local;
-  float weight = 1;  // 1 / pdf of the direction, solid angle
-  if (source.type == EmitterType::point) {
-    local = sampleSphereUniform(uDirection);
-    weight = 4 * kPi;
-  } else if (source.type == EmitterType::spot) {
-    const float oneMinusCos = 1 - point.cosCutoff;
-    local = sampleConeUniform(uDirection, oneMinusCos);
-    weight = kTwoPi * oneMinusCos;
+  Vec3f at;
+  if (light < firstSphere()) {
+    const TriangleLight& triangle = triangles_[light];
+    const Vec2f b = sampleTriangleUniform(uPosition);
+    at = triangle.p0 + triangle.e1 * b.x + triangle.e2 * b.y;
+    out.ng = triangle.normal();
+    out.power = radiance(triangle, b.x, b.y) * (kPi * triangle.area());
   } else {
-    float pdf;
-    const Vec2f uv = point.film.sample(uDirection, &pdf);
-    local = normalize(Vec3f{(1 - 2 * uv.x) * point.tanX, (1 - 2 * uv.y) * point.tanY, 1});
-    weight = 4 * point.tanX * point.tanY * local.z * local.z * local.z / pdf;
+    const SphereLight& sphere = spheres_[light - firstSphere()];
+    out.ng = sampleSphereUniform(uPosition);
+    at = sphere.centre + out.ng * sphere.outer;
+    out.power = radiance(sphere) * (4 * kPi * kPi * sphere.radius * sphere.radius);
   }
-  out.power = intensity(point, local) * weight;
-  out.ray.d = normalize(
-      Vec3f{dot(point.rows[0], local), dot(point.rows[1], local), dot(point.rows[2], local)});
-  out.ray.o = point.position;
-  out.ng = out.ray.d;
+  out.ray.d = frameFromNormal(out.ng).toWorld(sampleHemisphereCosine(uDirection));
+  const float error = light < firstSphere() ? triangles_[light].error : errorOf(at);
+  out.ray.o = offsetOrigin(at, out.ng, error, out.ray.d);
   return out;
 }
 

@@ -1,11 +1,12 @@
 // Finite emitters made ready for sampling: emissive triangles in world space, emissive spheres and
-// point-like emitters (point, spot, projector), numbered in this order.
+// point-like emitters (point_lights.h), numbered in this order.
 #pragma once
 
 #include <optional>
 
 #include "lobelia/path/emitter_sampling.h"
 #include "lobelia/path/emitter_tree.h"
+#include "lobelia/path/point_lights.h"
 
 namespace lobelia {
 
@@ -27,17 +28,6 @@ struct SphereLight {
   float radius = 0;
   float outer = 0;  // a sphere that contains the tessellation that rays meet
   uint32_t instance = 0;
-};
-
-struct PointLight {  // point, spot and projector
-  uint32_t emitter = 0;
-  Vec3f position;
-  Vec3f inverseRows[3];  // world direction to local
-  Vec3f rows[3];         // local direction to world, columns scaled as given
-  Vec3f axis{0, 0, 1};
-  float cosCutoff = -1, cosBeam = -1, tanX = 1, tanY = 1;
-  float peak = 0;       // largest intensity (luminance)
-  Distribution2D film;  // projector: its picture
 };
 
 // What a light sends towards a point.
@@ -74,11 +64,9 @@ class FiniteLights {
   uint32_t firstSphere() const { return static_cast<uint32_t>(triangles_.size()); }
   uint32_t firstPoint() const { return static_cast<uint32_t>(triangles_.size() + spheres_.size()); }
   void addInstance(uint32_t instance);
-  void addPoint(uint32_t emitter);
   Rgb radiance(const TriangleLight& light, float b1, float b2) const;
   Rgb radiance(const SphereLight& light) const;
   float meanRadiance(const TriangleLight& light) const;
-  Rgb intensity(const PointLight& light, Vec3f local) const;  // local need not be unit
 
   const Scene& scene_;
   std::vector<TriangleLight> triangles_;

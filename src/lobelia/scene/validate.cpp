@@ -89,8 +89,14 @@ void checkEmitters(const Scene& scene, Findings& findings) {
         if (!onSurface[i]) findings.warning(who + ": an area emitter that no surface has");
         break;
       case EmitterType::environment:
+      case EmitterType::goniometric:
         if (e.image.index >= scene.images.size()) findings.error(who + ": has no image");
         break;
+      case EmitterType::sun:
+        if (!(e.angularRadius >= 0 && e.angularRadius <= kPi / 2)) {
+          findings.error(who + ": its angular radius must lie between 0 and 90 degrees");
+        }
+        [[fallthrough]];
       case EmitterType::directional:
         if (!isFinite(e.direction) || !(length(e.direction) > 0)) {
           findings.error(who + ": its direction must be finite and not zero");

@@ -1,0 +1,45 @@
+#include "lobelia/path/spherical_image.h"
+
+namespace lobelia {
+
+Rgb SphericalImage::texel(int x, int y) const {
+  y = std::min(y, image_->height - 1);
+  const size_t channels = static_cast<size_t>(image_->channels);
+  const float* v =
+      image_->pixels.data() +
+      (static_cast<size_t>(y) * static_cast<size_t>(image_->width) + static_cast<size_t>(x)) *
+          channels;
+  return channels < 3 ? Rgb(v[0]) : Rgb(v[0], v[1], v[2]);
+}
+
+SphericalImage::Cell SphericalImage::cellAt(Vec2f s) const {
+  const float x = s.x * static_cast<float>(width()), y = s.y * static_cast<float>(rows_);
+  Cell cell{};
+  cell.x0 = std::clamp(static_cast<int>(x), 0, width() - 1);
+  cell.y0 = std::clamp(static_cast<int>(y), 0, rows_ - 1);
+  cell.x1 = cell.x0 + 1 == width() ? 0 : cell.x0 + 1;
+  cell.y1 = cell.y0 + 1;
+  cell.fx = std::clamp(x - static_cast<float>(cell.x0), 0.f, 1.f);
+  cell.fy = std::clamp(y - static_cast<float>(cell.y0), 0.f, 1.f);
+  return cell;
+}
+
+Vec2f SphericalImage::toSquare(Vec3f unit) const {
+  const float u = std::atan2(unit.x, -unit.z) / kTwoPi - 0.5f / static_cast<float>(width());
+  return {u - std::floor(u), std::acos(std::clamp(unit.y, -1.f, 1.f)) * kInvPi};
+}
+
+Vec3f SphericalImage::fromSquare(Vec2f s) const {
+  const float phi = (s.x + 0.5f / static_cast<float>(width())) * kTwoPi;
+  const float theta = s.y * kPi, sine = std::sin(theta);
+  return {std::sin(phi) * sine, std::cos(theta), -std::cos(phi) * sine};
+}
+
+Rgb SphericalImage::at(Vec3f unit) const {
+  const Cell c = cellAt(toSquare(unit));
+  const Rgb top = lerp(texel(c.x0, c.y0), texel(c.x1, c.y0), c.fx);
+  const Rgb bottom = lerp(texel(c.x0, c.y1), texel(c.x1, c.y1), c.fx);
+  return lerp(top, bottom, c.fy);
+}
+
+}  // namespace lobelia
