@@ -130,26 +130,41 @@ class Everything {
   }
 
   void addMaterials() {
-    for (int type = 0; type <= static_cast<int>(MaterialType::diffuseTransmitter); ++type) {
+    for (int type = 0; type <= static_cast<int>(MaterialType::coatedConductor); ++type) {
       Material m;
       m.type = static_cast<MaterialType>(type);
       m.name = type % 3 ? "same \"name\" $x" : "";
       // Only what the type has: the rest stays at its default and must come back so.
       const auto is = [&](auto... types) { return ((m.type == types) || ...); };
       using T = MaterialType;
-      if (is(T::diffuse, T::plastic, T::roughPlastic, T::phong, T::ward, T::principled))
+      if (is(T::diffuse, T::plastic, T::roughPlastic, T::phong, T::ward, T::principled,
+             T::diffuseTransmitter, T::metallicRoughness))
         m.diffuse = type % 2 ? ColorParam(checker_) : ColorParam(randomRgb());
       if (!is(T::diffuse, T::principled, T::diffuseTransmitter))
         m.specular = type % 2 ? ColorParam(randomRgb()) : ColorParam(bitmaps_[0]);
       if (is(T::dielectric, T::thinDielectric, T::roughDielectric, T::diffuseTransmitter))
         m.transmittance = is(T::thinDielectric) ? ColorParam(combined_) : ColorParam(randomRgb());
-      if (is(T::conductor, T::roughConductor)) m.eta = randomRgb(), m.k = randomRgb();
+      if (is(T::dielectric, T::roughDielectric, T::metallicRoughness)) m.absorption = randomRgb();
+      if (is(T::conductor, T::roughConductor, T::coatedConductor))
+        m.eta = randomRgb(), m.k = randomRgb();
       if (is(T::dielectric, T::thinDielectric, T::roughDielectric, T::plastic, T::roughPlastic,
-             T::principled))
+             T::principled, T::metallicRoughness))
         m.ior = 1 + random();
       if (is(T::plastic, T::roughPlastic)) m.nonlinear = true;
       if (is(T::roughConductor))
         m.distribution = Distribution::ggx, m.alphaU = second_, m.alphaV = attribute_;
+      if (is(T::coatedConductor))
+        m.coatAlphaU = second_, m.coatAlphaV = random(), m.coatIor = 1 + random();
+      if (is(T::metallicRoughness)) {
+        for (FloatParam* f : {&m.roughness, &m.metallic, &m.specTrans, &m.anisotropic, &m.clearcoat,
+                              &m.specularStrength, &m.sheenRoughness, &m.clearcoatRoughness,
+                              &m.anisotropicRotation})
+          *f = random();
+        m.metallic = second_;
+        m.sheenColor = randomRgb();
+        m.clearcoatNormal = bitmaps_[3], m.anisotropicDirection = combined_;
+        m.isSpecularGlossiness = m.thin = true;
+      }
       if (is(T::roughDielectric))
         m.distribution = Distribution::phong, m.alphaU = m.alphaV = scaled_;
       if (is(T::roughPlastic))

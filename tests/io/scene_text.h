@@ -62,13 +62,33 @@ class SceneText {
     if (!h.valid()) return "none";
     const Material& m = s_[h];
     std::string out = fmt::format("material {} (", int(m.type));
-    for (const ColorParam* c : {&m.diffuse, &m.specular, &m.transmittance, &m.eta, &m.k})
+    for (const ColorParam* c :
+         {&m.diffuse, &m.specular, &m.transmittance, &m.eta, &m.k, &m.sheenColor})
       out += color(*c) + " ";
+    out += fmt::format("{} {} {} {} {} {} ", m.isSpecularGlossiness, texture(m.clearcoatNormal),
+                       texture(m.anisotropicDirection), m.thin, m.coatIor, rgb(m.absorption));
     out += fmt::format("{} {} {} {} {} {} ", m.ior, int(m.distribution), m.wardVariant, m.nonlinear,
                        texture(m.map), m.scale);
-    for (const FloatParam* f : {&m.alphaU, &m.alphaV, &m.roughness, &m.anisotropic, &m.metallic,
-                                &m.specTrans, &m.specTint, &m.sheen, &m.sheenTint, &m.flatness,
-                                &m.clearcoat, &m.clearcoatGloss, &m.opacity, &m.weight})
+    for (const FloatParam* f : {&m.alphaU,
+                                &m.alphaV,
+                                &m.roughness,
+                                &m.anisotropic,
+                                &m.metallic,
+                                &m.specTrans,
+                                &m.specTint,
+                                &m.sheen,
+                                &m.sheenTint,
+                                &m.flatness,
+                                &m.clearcoat,
+                                &m.clearcoatGloss,
+                                &m.opacity,
+                                &m.weight,
+                                &m.specularStrength,
+                                &m.sheenRoughness,
+                                &m.clearcoatRoughness,
+                                &m.anisotropicRotation,
+                                &m.coatAlphaU,
+                                &m.coatAlphaV})
       out += (f->texture.valid() ? texture(f->texture) : fmt::format("{}", f->value)) + " ";
     return out + material(m.a) + " " + material(m.b) + ")";
   }

@@ -84,6 +84,33 @@ float wardAlbedo(int variant, float alpha, float cosine) {
   return grid.lookUp(cosine, alpha)[0];
 }
 
+// Nodes of the outer cosine c = u^2: the lobe lies at the horizon where alpha is small.
+Grid makeSheenGrid() {
+  return Grid(44, 22, kMinSheenAlpha, 1.f, [](float cosine, float alpha) {
+    static const GaussRule rule = gaussLegendre(48);
+    Lobe lobe;
+    lobe.type = LobeType::sheen;
+    lobe.alphaX = alpha;
+    const Vec3f wo = woAt(cosine);
+    double sum = 0;
+    for (size_t a = 0; a < rule.nodes.size(); ++a) {
+      const float u = static_cast<float>(rule.nodes[a]), c = u * u;
+      const float s = std::sqrt(std::max(0.f, 1 - c * c));
+      for (size_t b = 0; b < rule.nodes.size(); ++b) {
+        const float phi = kPi * static_cast<float>(rule.nodes[b]);
+        const Rgb f = evaluateLobe(lobe, wo, {s * std::cos(phi), s * std::sin(phi), c});
+        sum += rule.weights[a] * rule.weights[b] * static_cast<double>(2 * u * kTwoPi * f.x);
+      }
+    }
+    return Grid::Entry{static_cast<float>(sum)};
+  });
+}
+
+float sheenAlbedo(float alpha, float cosine) {
+  static const Grid grid = makeSheenGrid();
+  return std::max(grid.lookUp(cosine, alpha)[0], 0.f);
+}
+
 float coatAlbedo(const Lobe& lobe, float cosine) {
   if (lobe.variant == 1) return lookUpCoat(lobe.table, cosine) * lobe.table[kTransmittanceSize];
   static const GaussRule rule = gaussLegendre(12);
@@ -102,6 +129,16 @@ Rgb lobeAlbedo(const Lobe& lobe, float cosThetaO) {
   if (!isActive(lobe, cosThetaO)) return {};
   const float cosine = std::min(std::abs(cosThetaO), 1.f);
   const bool behind = cosThetaO < 0 && lobe.interface;
+  if (isCoated(lobe)) {
+    // As if all light left by the cosine that it came by (sheen: by the mean of the layers).
+    Lobe bare = lobe;
+    bare.variant = static_cast<uint8_t>(bare.variant & ~kCoated);
+    const Rgb below = lobeAlbedo(bare, cosThetaO);
+    if (behind && lobe.type == LobeType::microfacetReflection) return below;
+    const float t = lookUpCoat(lobe.table, cosine);
+    if (lobe.type == LobeType::microfacetTransmission) return below * t;
+    return below * (t * (lobe.type == LobeType::sheen ? lobe.table[kTransmittanceSize] : t));
+  }
   switch (lobe.type) {
     case LobeType::lambert:
     case LobeType::diffuseTransmission:
@@ -110,6 +147,15 @@ Rgb lobeAlbedo(const Lobe& lobe, float cosThetaO) {
       return lobe.weight * coatAlbedo(lobe, cosine);
     case LobeType::principledDiffuse:
       return principledDiffuseAlbedo(lobe, cosine);
+    case LobeType::sheen:
+      return lobe.weight * sheenAlbedo(lobe.alphaX, cosine);
+    case LobeType::thinTransmission: {
+      Lobe whole = lobe;
+      whole.fresnel = Fresnel::one;
+      return lobe.weight * max(microfacetReflectance(whole, cosine, false) -
+                                   microfacetReflectance(lobe, cosine, false),
+                               Rgb(0.f));
+    }
     case LobeType::microfacetReflection:
       return lobe.weight * microfacetReflectance(lobe, cosine, behind);
     case LobeType::microfacetTransmission:

@@ -19,8 +19,9 @@ bool inSet(const Lobe& lobe, LobeSet set) {
 
 // First of the two lobes of a rough interface, both of which take part?
 bool isInterfacePair(const Bsdf& bsdf, int i) {
-  return bsdf.lobes[i].type == LobeType::microfacetReflection && bsdf.lobes[i].variant == 1 &&
-         i + 1 < bsdf.lobeCount && bsdf.lobes[i].sharp == bsdf.lobes[i + 1].sharp;
+  return bsdf.lobes[i].type == LobeType::microfacetReflection &&
+         (bsdf.lobes[i].variant & kInterfacePair) != 0 && i + 1 < bsdf.lobeCount &&
+         bsdf.lobes[i].sharp == bsdf.lobes[i + 1].sharp;
 }
 
 float totalSelection(const Bsdf& bsdf, float cosThetaO, LobeSet set) {
@@ -218,8 +219,10 @@ float roughness(const Lobe& lobe) {
     case LobeType::coatedDiffuse:
     case LobeType::principledDiffuse:
     case LobeType::diffuseTransmission:
+    case LobeType::sheen:
       return 1;
     case LobeType::microfacetReflection:
+    case LobeType::thinTransmission:
     case LobeType::microfacetTransmission:
     case LobeType::ward:
       return std::sqrt(lobe.alphaX * lobe.alphaY);

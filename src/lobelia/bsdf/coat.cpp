@@ -5,12 +5,11 @@
 #include "lobelia/bsdf/coat.h"
 
 #include <cmath>
-#include <map>
-#include <memory>
-#include <mutex>
 #include <tuple>
 
+#include "lobelia/bsdf/layers.h"
 #include "lobelia/bsdf/lobe_sampling.h"
+#include "lobelia/bsdf/memo.h"
 #include "lobelia/bsdf/microfacet_sampling.h"
 #include "lobelia/bsdf/quadrature.h"
 #include "lobelia/bsdf/scalar_lobe.h"
@@ -27,7 +26,7 @@ float normalWeight(Distribution distribution, float alpha, Vec3f w, Vec3f m) {
 RoughCoat integrateCoat(Distribution distribution, float alpha, float eta) {
   const GaussRule rule = gaussLegendre(40);
   RoughCoat coat;
-  double internal = 0, mean = 0;
+  double internal = 0;
   for (int i = 0; i < kTransmittanceSize; ++i) {
     const float mu =
         std::max(1e-6f, static_cast<float>(i) / static_cast<float>(kTransmittanceSize - 1));
@@ -55,39 +54,12 @@ RoughCoat integrateCoat(Distribution distribution, float alpha, float eta) {
     coat.transmittance[static_cast<size_t>(i)] = static_cast<float>(through);
     internal += 2 * back * mu / kTransmittanceSize;
   }
-  // Integral of the linear interpolant times 2 c: exact per interval.
-  for (int i = 0; i + 1 < kTransmittanceSize; ++i) {
-    const double h = 1.0 / (kTransmittanceSize - 1), c0 = i * h;
-    const double t0 = static_cast<double>(coat.transmittance[static_cast<size_t>(i)]);
-    const double t1 = static_cast<double>(coat.transmittance[static_cast<size_t>(i) + 1]);
-    mean += 2 * h * (c0 * (t0 + t1) / 2 + h * (t0 / 6 + t1 / 3));
-  }
-  coat.transmittance[kTransmittanceSize] = static_cast<float>(mean);
+  coat.transmittance[kTransmittanceSize] = diffuseMean(coat.transmittance);
   coat.internalReflectance = static_cast<float>(internal);
   return coat;
 }
 
 using CoatKey = std::tuple<Distribution, float, float>;
-
-// Process-wide memo; entries are never removed, so that pointers into them stay valid.
-class CoatCache {
- public:
-  const RoughCoat& find(const CoatKey& key) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (const auto at = coats_.find(key); at != coats_.end()) return *at->second;
-    }
-    // Integrated outside of the lock: two threads may do the same work, with the same result.
-    auto coat = std::make_unique<RoughCoat>(
-        integrateCoat(std::get<0>(key), std::get<1>(key), std::get<2>(key)));
-    const std::lock_guard lock(mutex_);
-    return *coats_.emplace(key, std::move(coat)).first->second;
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<CoatKey, std::unique_ptr<const RoughCoat>> coats_;
-};
 
 }  // namespace
 
@@ -99,19 +71,10 @@ float fresnelDiffuseReflectance(float eta) {
 }
 
 const RoughCoat& roughCoat(Distribution distribution, float alpha, float eta) {
-  static CoatCache cache;
-  // The last few coats of this thread, without the lock: this runs at every hit.
-  struct Recent {
-    CoatKey key;
-    const RoughCoat* coat = nullptr;
-  };
-  static constexpr size_t kRecentCount = 16;
-  thread_local std::array<Recent, kRecentCount> recent;
-  const CoatKey key{distribution, alpha, eta};
-  const size_t slot = (std::hash<float>{}(alpha) ^ (std::hash<float>{}(eta) >> 7)) % kRecentCount;
-  Recent& r = recent[slot];
-  if (r.coat == nullptr || r.key != key) r = {key, &cache.find(key)};
-  return *r.coat;
+  static Memo<CoatKey, RoughCoat> memo;
+  const size_t slot = std::hash<float>{}(alpha) ^ (std::hash<float>{}(eta) >> 7);
+  return memo.find({distribution, alpha, eta}, slot,
+                   [&] { return integrateCoat(distribution, alpha, eta); });
 }
 
 }  // namespace lobelia

@@ -2,9 +2,7 @@
 // has them.
 #pragma once
 
-#include <array>
-
-#include "lobelia/bsdf/lobe.h"
+#include "lobelia/bsdf/layers.h"
 
 namespace lobelia {
 
@@ -13,8 +11,7 @@ namespace lobelia {
 float fresnelDiffuseReflectance(float eta);
 
 struct RoughCoat {
-  // For Lobe::table; one value more: the mean for diffuse light, twice the integral of T(c) c.
-  std::array<float, kTransmittanceSize + 1> transmittance;
+  TransmittanceTable transmittance;
   float internalReflectance = 0;  // for diffuse light from inside
 };
 

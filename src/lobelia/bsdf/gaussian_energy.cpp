@@ -42,6 +42,7 @@ Rgb glossyEnergy(const Lobe& lobe, Vec3f wo) {
     // Light, not radiance: without the 1/eta^2 that the kernels include.
     return sampledAlbedo(lobe, wo) * sqr(relativeEta(lobe, wo.z < 0));
   }
+  if (isCoated(lobe)) return sampledAlbedo(lobe, wo);
   if (lobe.type != LobeType::phong && lobe.alphaX != lobe.alphaY) return sampledAlbedo(lobe, wo);
   return lobeAlbedo(lobe, wo.z);
 }

@@ -222,6 +222,16 @@ int rowShape(const Lobe& lobe, Vec3f wo, bool behind, std::span<ShapePart> parts
 }
 
 int shapeOf(const Lobe& lobe, Vec3f wo, bool behind, std::span<ShapePart> parts) {
+  if (lobe.type == LobeType::thinTransmission) {
+    // Its mirror image; the Fresnel factor, which is left out, hardly changes over the lobe.
+    Lobe mirrored = lobe;
+    mirrored.type = LobeType::microfacetReflection;
+    mirrored.fresnel = Fresnel::one;
+    mirrored.variant = 0;
+    const int count = shapeOf(mirrored, wo, behind, parts);
+    for (ShapePart& p : parts.first(static_cast<size_t>(count))) p.axis = flipZ(p.axis);
+    return count;
+  }
   const int count = behind ? 0 : tabulatedShape(lobe, wo, parts);
   return count > 0 ? count : rowShape(lobe, wo, behind, parts);
 }

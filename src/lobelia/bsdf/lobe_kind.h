@@ -13,12 +13,13 @@ constexpr bool isDelta(LobeType type) {
 // Leads to the other side of the surface.
 constexpr bool isTransmission(LobeType type) {
   return type == LobeType::microfacetTransmission || type == LobeType::diffuseTransmission ||
-         type == LobeType::deltaTransmission || type == LobeType::null;
+         type == LobeType::deltaTransmission || type == LobeType::null ||
+         type == LobeType::thinTransmission;
 }
 // Reflects about evenly in all directions: no spherical Gaussians, but cosine lobes.
 constexpr bool isDiffuse(LobeType type) {
   return type == LobeType::lambert || type == LobeType::coatedDiffuse ||
-         type == LobeType::principledDiffuse;
+         type == LobeType::principledDiffuse || type == LobeType::sheen;
 }
 
 }  // namespace lobelia

@@ -110,10 +110,18 @@ std::optional<Vec3f> sampleLobe(const Lobe& lobe, Vec3f woGiven, Vec2f u) {
       wi = flipZ(sampleHemisphereCosine(u));
       through = true;
       break;
-    case LobeType::microfacetReflection: {
+    case LobeType::sheen:
+      // Flat or towards the horizon: the cosine would miss the most of it [Estevez17, section 4].
+      wi = {std::cos(kTwoPi * u.x) * std::sqrt(u.y * (2 - u.y)),
+            std::sin(kTwoPi * u.x) * std::sqrt(u.y * (2 - u.y)), 1 - u.y};
+      break;
+    case LobeType::microfacetReflection:
+    case LobeType::thinTransmission: {
       const Vec3f m = sampleMicroNormal(lobe.distribution, lobe.alphaX, lobe.alphaY, wo, u);
       if (dot(wo, m) <= 0) return std::nullopt;
       wi = reflect(wo, m);
+      through = lobe.type == LobeType::thinTransmission;
+      if (through) wi = flipZ(wi);
       break;
     }
     case LobeType::microfacetTransmission: {
@@ -155,8 +163,12 @@ float lobePdf(const Lobe& lobe, Vec3f woGiven, Vec3f wiGiven) {
       return std::max(wi.z, 0.f) * kInvPi;
     case LobeType::diffuseTransmission:
       return std::max(-wi.z, 0.f) * kInvPi;
+    case LobeType::sheen:
+      return wi.z > 0 ? 0.5f * kInvPi : 0.f;
     case LobeType::microfacetReflection:
       return microfacetReflectionPdf(lobe, wo, wi);
+    case LobeType::thinTransmission:
+      return microfacetReflectionPdf(lobe, wo, flipZ(wi));
     case LobeType::microfacetTransmission:
       return microfacetTransmissionPdf(lobe, wo, wi, relativeEta(lobe, behind));
     case LobeType::phong:

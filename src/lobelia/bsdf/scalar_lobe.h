@@ -22,7 +22,7 @@ inline core::LobeParameters<float> parametersOf(const Lobe& lobe) {
 
 // Transmittance of a rough coat, linear between the entries of its table.
 inline float lookUpCoat(const float* table, float cosine) {
-  const float x = cosine * static_cast<float>(kTransmittanceSize - 1);
+  const float x = std::max(cosine, 0.f) * static_cast<float>(kTransmittanceSize - 1);
   const int i = std::min(static_cast<int>(x), kTransmittanceSize - 2);
   const float f = x - static_cast<float>(i);
   return table[i] * (1 - f) + table[i + 1] * f;
@@ -41,6 +41,13 @@ inline Rgb fresnelOf(const Lobe& lobe, float cosine, bool behind) {
       core::fresnelReflectance(lobe.fresnel, parametersOf(lobe), cosine, behind ? 1.f : 0.f));
 }
 
+// Do layers with the transmittance Lobe::table lie over the lobe?
+inline bool isCoated(const Lobe& lobe) {
+  const bool may = lobe.type == LobeType::sheen || lobe.type == LobeType::thinTransmission ||
+                   lobe.type == LobeType::microfacetReflection ||
+                   lobe.type == LobeType::microfacetTransmission;
+  return may && (lobe.variant & kCoated) != 0;
+}
 inline bool isDelta(const Lobe& lobe) { return isDelta(lobe.type); }
 inline bool isTransmission(const Lobe& lobe) { return isTransmission(lobe.type); }
 // Does the lobe act for a wo on this side at all?

@@ -20,9 +20,9 @@ Kind kindOf(const Receivers& receivers, const ReceiverPoint& point) {
     kind[4 * i] = static_cast<uint8_t>(lobe.type);
     kind[4 * i + 1] = static_cast<uint8_t>(lobe.distribution);
     kind[4 * i + 2] = static_cast<uint8_t>(lobe.fresnel);
-    // Microfacets use the variant for sampling only.
-    const bool variant = lobe.type == LobeType::ward || lobe.type == LobeType::coatedDiffuse;
-    kind[4 * i + 3] = variant ? lobe.variant : uint8_t{0};
+    // Of microfacets only layers above them matter: their pairing is for sampling.
+    const bool whole = lobe.type == LobeType::ward || lobe.type == LobeType::coatedDiffuse;
+    kind[4 * i + 3] = whole ? lobe.variant : static_cast<uint8_t>(lobe.variant & kCoated);
   }
   kind.back() = point.lobeCount;
   return kind;

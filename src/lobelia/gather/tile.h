@@ -29,7 +29,7 @@ struct LobeStrip {
   alignas(64) float alphaY[kStrip];
   StripV3 weight, eta, k, parameters, tint;
   alignas(64) float sides[kStrip];        // bsdf/kernels-inl.h
-  alignas(64) float tableOffset[kStrip];  // into Tile::tables, coated diffuse lobes only
+  alignas(64) float tableOffset[kStrip];  // into Tile::tables, lobes under a coat only
 };
 
 struct PointStrip {

@@ -59,6 +59,7 @@ void ParticleWalk::trace(uint32_t particle, ParticleBatch* out) const {
     if (!hit) return;
     const SurfacePoint at = surfacePoint(emitters_.scene(), *hit);
     const Vec3f wi = -ray.d;
+    power *= interiorTransmittance(emitters_.scene(), at, wi);
     const Bsdf bsdf = makeBsdf(emitters_.scene(), at, wi, settings_.specularLimit);
     const float uGaussian = random.next1D();
     if (hasLobes(bsdf, LobeSet::rough)) leaveLights(at, bsdf, wi, power, depth, uGaussian, out);

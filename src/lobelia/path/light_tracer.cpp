@@ -199,6 +199,8 @@ class ParticlePasses {
       if (!hit) return;
       const SurfacePoint at = surfacePoint(emitters_.scene(), *hit);
       const Vec3f wo = -ray.d;
+      const Rgb inside = interiorTransmittance(emitters_.scene(), at, wo);
+      all *= inside, chain *= inside;
       if (vertex > settings_.rouletteDepth) {
         const float survival = rouletteSurvival(all / start, eta);
         if (!(random.next1D() < survival)) return;

@@ -76,6 +76,8 @@ bool PathWalk<Rays>::advance(PathState& path, PathCounts& counts) const {
   const bool last = settings_.maxDepth >= 0 && path.depth >= settings_.maxDepth;
   const SurfacePoint at = surfacePoint(emitters_.scene(), *path.hit);
   const Vec3f wo = -path.ray.d;
+  const Rgb inside = interiorTransmittance(emitters_.scene(), at, wo);
+  path.chain *= inside, path.indirect *= inside;
   if (at.emitter.valid()) meet(path, emitters_.emitted(at, wo), &at);
   if (last && path.depth > 1) return false;
   if (settings_.component == Component::direct && path.chain == Rgb{}) return false;

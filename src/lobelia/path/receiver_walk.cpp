@@ -91,13 +91,14 @@ float EyeWalk::importance(const EyeSegment& segment) const {
          static_cast<float>(settings_.sampleCount);
 }
 
-void EyeWalk::step(const EyeSegment& segment, State* state) const {
+void EyeWalk::step(EyeSegment segment, State* state) const {
   ++state->counts->pathRays;
   const auto hit = tracer_.intersect(segment.ray);
   if (!hit) return addEmission(segment, nullptr, emitters_.escaped(segment.ray.d), state);
   Vertex v;
   v.at = surfacePoint(emitters_.scene(), *hit);
   v.wo = -segment.ray.d;
+  segment.throughput *= interiorTransmittance(emitters_.scene(), v.at, v.wo);
   v.depth = segment.depth + 1;
   if (v.at.emitter.valid()) addEmission(segment, &v.at, emitters_.emitted(v.at, v.wo), state);
   const bool first = segment.depth == 0;

@@ -57,7 +57,7 @@ class EyeWalk {
  private:
   struct State;  // of one call
   struct Vertex;
-  void step(const EyeSegment& segment, State* state) const;
+  void step(EyeSegment segment, State* state) const;
   // hit: null when the ray escaped.
   void addEmission(const EyeSegment& segment, const SurfacePoint* hit, Rgb radiance,
                    State* state) const;

@@ -43,7 +43,7 @@ Vec3f perturbedNormal(const Scene& scene, const Material& material, const Surfac
 // Tilts the frame; false where nothing can be seen of the surface from wo any more.
 bool Walk::perturb(const Material& material, bool twoSided) {
   if (!material.map.valid() || bsdf.perturbed) return true;
-  const Frame base = bsdf.frame;
+  const Frame base = at.frame;  // bsdf.frame may have been turned by an anisotropic material
   Vec3f n = perturbedNormal(scene, material, at, base);
   const float length2 = lengthSquared(n);
   if (!(length2 > 1e-20f) || !std::isfinite(length2)) return true;

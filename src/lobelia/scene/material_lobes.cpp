@@ -9,64 +9,25 @@
 #include "lobelia/bsdf/albedo.h"
 #include "lobelia/bsdf/bsdf.h"
 #include "lobelia/bsdf/coat.h"
+#include "lobelia/scene/lobe_builder.h"
 
 namespace lobelia {
 namespace {
-
-constexpr float kMinAlpha = 1e-4f;  // as Mitsuba
-
-float mean(Rgb c) { return (c.x + c.y + c.z) / 3; }
-
-// What every case needs.
-struct Builder {
-  const Scene& scene;
-  const Material& material;
-  const TextureContext& at;
-  float cosThetaO;
-  float weight;
-  bool twoSided;
-  Bsdf& bsdf;
-
-  Rgb color(const ColorParam& param) const {
-    return max(evaluate(scene, param, at), Rgb(0.f)) * weight;
-  }
-  float alpha(const FloatParam& param) const {
-    return std::max(evaluate(scene, param, at), kMinAlpha);
-  }
-  Lobe lobe(LobeType type) const {
-    Lobe l;
-    l.type = type;
-    l.twoSided = twoSided;
-    return l;
-  }
-  Lobe microfacets(LobeType type) const {
-    Lobe l = lobe(type);
-    l.distribution = material.distribution;
-    l.alphaX = alpha(material.alphaU), l.alphaY = alpha(material.alphaV);
-    return l;
-  }
-  // Black lobes are left out: nothing would ever come of them.
-  void add(Lobe l, Rgb value, float selection) const {
-    if (!(maxComponent(value) > 0) || !(selection > 0)) return;
-    l.weight = value;
-    l.selection = selection;
-    bsdf.add(l);
-  }
-  void addStraight(Rgb value) const {
-    Lobe l = lobe(LobeType::null);
-    l.twoSided = true;
-    add(l, value, weight);
-  }
-};
 
 void addDiffuse(const Builder& b) {
   b.add(b.lobe(LobeType::lambert), b.color(b.material.diffuse), b.weight);
 }
 
+// Mitsuba 0.6 has transmission alone (there m.diffuse is black), PBRT reflection as well.
 void addDiffuseTransmitter(const Builder& b) {
+  const Rgb reflectance = b.color(b.material.diffuse);
+  Lobe r = b.lobe(LobeType::lambert);
+  r.twoSided = true;
+  b.add(r, reflectance, mean(reflectance));
   Lobe l = b.lobe(LobeType::diffuseTransmission);
   l.twoSided = true;
-  b.add(l, b.color(b.material.transmittance), b.weight);
+  const Rgb transmittance = b.color(b.material.transmittance);
+  b.add(l, transmittance, mean(transmittance));
 }
 
 void addConductor(const Builder& b, bool rough) {
@@ -150,8 +111,10 @@ void addSmoothPlastic(const Builder& b) {
 
 void addRoughPlastic(const Builder& b) {
   Lobe coat = b.microfacets(LobeType::microfacetReflection);
-  float alpha = coat.alphaX;
-  if (b.material.alphaU.texture.valid()) alpha = std::max(std::round(alpha * 128) / 128, 1.f / 256);
+  // The tables are isotropic: the roughness whose slopes have the same variance.
+  float alpha = std::sqrt(0.5f * (sqr(coat.alphaX) + sqr(coat.alphaY)));
+  if (b.material.alphaU.texture.valid() || b.material.alphaV.texture.valid())
+    alpha = std::max(std::round(alpha * 128) / 128, 1.f / 256);
   const RoughCoat& table = roughCoat(coat.distribution, alpha, b.material.ior);
   Lobe base = b.lobe(LobeType::coatedDiffuse);
   base.variant = 1;
@@ -221,6 +184,10 @@ void addLobes(const Scene& scene, const Material& material, const TextureContext
       return addWard(b);
     case MaterialType::diffuseTransmitter:
       return addDiffuseTransmitter(b);
+    case MaterialType::metallicRoughness:
+      return addMetallicRoughnessLobes(b);
+    case MaterialType::coatedConductor:
+      return addCoatedConductorLobes(b);
     case MaterialType::null:
       return b.addStraight(Rgb(weight));
     case MaterialType::twoSided:

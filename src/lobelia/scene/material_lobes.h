@@ -22,4 +22,9 @@ void addPrincipledLobes(const Scene& scene, const Material& material, const Text
 void addCapturedLobes(const Scene& scene, const Material& material, const TextureContext& at,
                       float cosThetaO, float weight, bool twoSided, Bsdf& bsdf);
 
+struct Builder;  // scene/lobe_builder.h
+// glTF's material (material_metallic.cpp), metal under a dielectric coat (material_coated.cpp).
+void addMetallicRoughnessLobes(const Builder& b);
+void addCoatedConductorLobes(const Builder& b);
+
 }  // namespace lobelia

@@ -34,6 +34,9 @@ SurfacePoint surfacePoint(const Scene& scene, const Hit& hit);
 // Opacity is not a lobe: rays pass masks stochastically (trace/tracer.h).
 // light: the side of emission is not considered here.
 Bsdf makeBsdf(const Scene& scene, const SurfacePoint& at, Vec3f wo, float specularLimit);
+// What the inside of a closed dielectric leaves of light on the edge of length at.t that ends here,
+// coming from wo: exp(-absorption t) from behind, 1 from outside (scene/absorption.cpp).
+Rgb interiorTransmittance(const Scene& scene, const SurfacePoint& at, Vec3f wo);
 // Probability that a ray stops at this hit: the mask's opacity; 0 for `null`.
 float opacity(const Scene& scene, MaterialHandle material, const TextureContext& at);
 bool hasOpacity(const Scene& scene, MaterialHandle material);  // is it ever below one?

@@ -13,6 +13,12 @@ namespace {
 bool mayExceed(const FloatParam& p, float limit) { return p.texture.valid() || p.value > limit; }
 bool mayBeBelow(const FloatParam& p, float limit) { return p.texture.valid() || p.value < limit; }
 
+int metallicRoughnessLobes(const Material& m) {
+  const bool sheen = m.sheenColor.texture.valid() || maxComponent(m.sheenColor.value) > 0;
+  return 2 + (mayExceed(m.clearcoat, 0) ? 1 : 0) + (sheen ? 1 : 0) +
+         (mayExceed(m.specTrans, 0) ? 1 : 0);
+}
+
 int principledLobes(const Material& m) {
   const bool transmits = mayBeBelow(m.metallic, 1) && mayExceed(m.specTrans, 0);
   const bool diffuse = mayBeBelow(m.metallic, 1) && mayBeBelow(m.specTrans, 1);
@@ -42,7 +48,6 @@ class Needs {
   Need count(const Material& m, int level) {
     switch (m.type) {
       case MaterialType::diffuse:
-      case MaterialType::diffuseTransmitter:
       case MaterialType::conductor:
       case MaterialType::roughConductor:
       case MaterialType::null:
@@ -54,7 +59,11 @@ class Needs {
       case MaterialType::roughPlastic:
       case MaterialType::phong:
       case MaterialType::ward:
+      case MaterialType::diffuseTransmitter:
+      case MaterialType::coatedConductor:
         return {2, 0};
+      case MaterialType::metallicRoughness:
+        return {metallicRoughnessLobes(m), 0};
       case MaterialType::principled:
         return {principledLobes(m), 0};
       case MaterialType::sphericalGaussians:

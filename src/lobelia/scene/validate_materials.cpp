@@ -160,8 +160,15 @@ std::vector<NamedColour> albedos(const Material& m) {
       return {diffuse};
     case MaterialType::principled:
       return {{"base colour", &m.diffuse}};
+    case MaterialType::metallicRoughness:
+      // KHR_materials_specular allows colours above 1: the product with the index counts.
+      return m.isSpecularGlossiness
+                 ? std::vector<NamedColour>{{"diffuse colour", &m.diffuse}, specular}
+                 : std::vector<NamedColour>{{"base colour", &m.diffuse},
+                                            {"sheen colour", &m.sheenColor}};
     case MaterialType::diffuseTransmitter:
-      return {transmittance};
+      return {diffuse, transmittance};
+    case MaterialType::coatedConductor:
     case MaterialType::conductor:
     case MaterialType::roughConductor:
       return {specular};
@@ -187,27 +194,35 @@ bool checkHandles(const Scene& scene, const Material& m, const std::string& who,
     findings.error(fmt::format("{}: texture {} of its {} does not exist", who, h.index, name));
     valid = false;
   };
-  for (const NamedColour& c : std::array<NamedColour, 5>{{{"diffuse", &m.diffuse},
+  for (const NamedColour& c : std::array<NamedColour, 6>{{{"diffuse", &m.diffuse},
+                                                          {"sheen colour", &m.sheenColor},
                                                           {"specular", &m.specular},
                                                           {"transmittance", &m.transmittance},
                                                           {"eta", &m.eta},
                                                           {"k", &m.k}}}) {
     texture(c.name, c.value->texture);
   }
-  for (const NamedFloat& f : std::array<NamedFloat, 14>{{{"alpha u", &m.alphaU},
-                                                         {"alpha v", &m.alphaV},
-                                                         {"roughness", &m.roughness},
-                                                         {"anisotropic", &m.anisotropic},
-                                                         {"metallic", &m.metallic},
-                                                         {"spec_trans", &m.specTrans},
-                                                         {"spec_tint", &m.specTint},
-                                                         {"sheen", &m.sheen},
-                                                         {"sheen_tint", &m.sheenTint},
-                                                         {"flatness", &m.flatness},
-                                                         {"clearcoat", &m.clearcoat},
-                                                         {"clearcoat_gloss", &m.clearcoatGloss},
-                                                         {"opacity", &m.opacity},
-                                                         {"weight", &m.weight}}}) {
+  for (const NamedFloat& f :
+       std::array<NamedFloat, 20>{{{"alpha u", &m.alphaU},
+                                   {"specular strength", &m.specularStrength},
+                                   {"sheen roughness", &m.sheenRoughness},
+                                   {"clearcoat roughness", &m.clearcoatRoughness},
+                                   {"anisotropy rotation", &m.anisotropicRotation},
+                                   {"coat alpha u", &m.coatAlphaU},
+                                   {"coat alpha v", &m.coatAlphaV},
+                                   {"alpha v", &m.alphaV},
+                                   {"roughness", &m.roughness},
+                                   {"anisotropic", &m.anisotropic},
+                                   {"metallic", &m.metallic},
+                                   {"spec_trans", &m.specTrans},
+                                   {"spec_tint", &m.specTint},
+                                   {"sheen", &m.sheen},
+                                   {"sheen_tint", &m.sheenTint},
+                                   {"flatness", &m.flatness},
+                                   {"clearcoat", &m.clearcoat},
+                                   {"clearcoat_gloss", &m.clearcoatGloss},
+                                   {"opacity", &m.opacity},
+                                   {"weight", &m.weight}}}) {
     texture(f.name, f.value->texture);
   }
   for (const CapturedLobe& lobe : m.capturedLobes) {
@@ -215,6 +230,8 @@ bool checkHandles(const Scene& scene, const Material& m, const std::string& who,
     texture("sharpness", lobe.sharpness.texture);
   }
   texture("map", m.map);
+  texture("clearcoat normal", m.clearcoatNormal);
+  texture("anisotropy direction", m.anisotropicDirection);
   for (MaterialHandle h : children(m)) {
     if (h.index < scene.materials.size()) continue;
     findings.error(h.valid() ? fmt::format("{}: material {} inside it does not exist", who, h.index)
@@ -246,10 +263,24 @@ void checkValues(const Scene& scene, const Material& m, const std::string& who,
                                    c.name, largest));
     }
   }
-  if (!std::isfinite(m.ior) || !(m.ior > 0)) {
+  // KHR_materials_ior: 0 is an interface that reflects all.
+  const bool mayBeZero = m.type == MaterialType::metallicRoughness && m.ior == 0;
+  if (!std::isfinite(m.ior) || (!(m.ior > 0) && !mayBeZero)) {
     findings.error(fmt::format("{}: an index of refraction of {}; it must be above 0", who, m.ior));
   }
-  for (const FloatParam* alpha : {&m.alphaU, &m.alphaV}) {
+  if (!std::isfinite(m.coatIor) || !(m.coatIor > 0)) {
+    findings.error(fmt::format("{}: its coat has an index of refraction of {}; it must be above 0",
+                               who, m.coatIor));
+  }
+  if (!isFinite(m.absorption) || minComponent(m.absorption) < 0) {
+    findings.error(who + ": its absorption must be finite and 0 or more");
+  }
+  if (m.clearcoatNormal.valid()) {
+    findings.warning(who +
+                     ": the normal map of its clearcoat is left out; the coat has the "
+                     "normals of the base");
+  }
+  for (const FloatParam* alpha : {&m.alphaU, &m.alphaV, &m.coatAlphaU, &m.coatAlphaV}) {
     if (!alpha->texture.valid() && !(alpha->value >= 0 && std::isfinite(alpha->value))) {
       findings.error(
           fmt::format("{}: a roughness of {}; it must be finite and 0 or more", who, alpha->value));

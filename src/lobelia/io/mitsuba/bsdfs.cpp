@@ -2,7 +2,8 @@
 // version 0.x, of Mitsuba 0.6.
 //
 // Deviations: principledthin is read as principled with a warning; mixturebsdf becomes a chain of
-// blends, its missing weight a black layer; "as" (Ashikhmin-Shirley) is read as phong.
+// blends, its missing weight a black layer; "as" (Ashikhmin-Shirley) is read as phong. Our own:
+// difftrans may have a reflectance, closed dielectrics an absorption; extension_bsdfs.cpp.
 
 #include "lobelia/io/mitsuba/reader.h"
 #include "lobelia/io/optical_constants.h"
@@ -12,10 +13,12 @@ namespace {
 
 const std::vector<std::string>& bsdfTypes() {
   static const std::vector<std::string> types{
-      "diffuse",         "conductor",   "roughconductor", "dielectric", "thindielectric",
-      "roughdielectric", "plastic",     "roughplastic",   "principled", "principledthin",
-      "phong",           "ward",        "difftrans",      "twosided",   "mask",
-      "blendbsdf",       "mixturebsdf", "bumpmap",        "normalmap",  "null"};
+      "diffuse",           "conductor",       "roughconductor", "dielectric",
+      "thindielectric",    "roughdielectric", "plastic",        "roughplastic",
+      "principled",        "principledthin",  "phong",          "ward",
+      "difftrans",         "twosided",        "mask",           "blendbsdf",
+      "mixturebsdf",       "bumpmap",         "normalmap",      "null",
+      "metallicroughness", "coatedconductor"};
   return types;
 }
 
@@ -82,6 +85,7 @@ Material Reader::simpleMaterial(Object& object) {
     specular(1);
     m.transmittance = color(object, "specular_transmittance", Rgb(1.f));
     if (type == "roughdielectric") roughness(object, &m);
+    if (type != "thindielectric") m.absorption = absorption(object);
   } else if (type == "plastic" || type == "roughplastic") {
     m.type = type == "plastic" ? MaterialType::plastic : MaterialType::roughPlastic;
     indexOfRefraction(object, "polypropylene", &m);
@@ -112,8 +116,13 @@ Material Reader::simpleMaterial(Object& object) {
   } else if (type == "difftrans") {
     m.type = MaterialType::diffuseTransmitter;
     m.transmittance = color(object, "transmittance", Rgb(0.5f));
+    m.diffuse = color(object, "reflectance", Rgb(0.f));
   } else if (type == "principled" || type == "principledthin") {
     m = principled(object);
+  } else if (type == "metallicroughness") {
+    m = metallicRoughness(object);
+  } else if (type == "coatedconductor") {
+    m = coatedConductor(object);
   } else if (type == "null") {
     m.type = MaterialType::null;
   } else {

@@ -57,6 +57,11 @@ class Reader {
   MaterialHandle wrapper(Object& object);
   Material principled(Object& object);
   MaterialHandle mixture(Object& object);
+  // extension_bsdfs.cpp
+  Material metallicRoughness(Object& object);
+  Material coatedConductor(Object& object);
+  Rgb absorption(Object& object);
+  TextureHandle textureOnly(Object& object, const std::string& name);
   void indexOfRefraction(Object& object, const std::string& defaultInside, Material* out);
   float namedOrNumber(Object& object, const std::string& name, const std::string& otherwise);
   void conductor(Object& object, Material* out);

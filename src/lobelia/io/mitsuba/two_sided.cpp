@@ -24,6 +24,7 @@ bool isReflector(const Scene& scene, MaterialHandle handle) {
     case MaterialType::twoSided:
       return false;
     case MaterialType::principled:
+    case MaterialType::metallicRoughness:
       return m.specTrans.value == 0 && !m.specTrans.texture.valid();
     default:
       return !isWrapper(m.type) || (isReflector(scene, m.a) && isReflector(scene, m.b));

@@ -48,6 +48,10 @@ class Writer {
   void roughness(Node node, const Material& material);
   void materialProperties(Node node, const Material& material);
   void principled(Node node, const Material& material);
+  // writer_extensions.cpp
+  void metallicRoughness(Node node, const Material& material);
+  void coatedConductor(Node node, const Material& material);
+  void absorption(Node node, const Material& material);
 
   // writer.cpp
   void writeIntegrator();

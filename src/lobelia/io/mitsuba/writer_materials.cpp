@@ -295,6 +295,7 @@ void Writer::materialProperties(Node node, const Material& m) {
       color(node, "specular_reflectance", m.specular);
       color(node, "specular_transmittance", m.transmittance);
       if (m.type == MaterialType::roughDielectric) roughness(node, m);
+      if (m.type != MaterialType::thinDielectric) absorption(node, m);
       break;
     case MaterialType::plastic:
     case MaterialType::roughPlastic:
@@ -323,6 +324,13 @@ void Writer::materialProperties(Node node, const Material& m) {
     }
     case MaterialType::diffuseTransmitter:
       color(node, "transmittance", m.transmittance);
+      color(node, "reflectance", m.diffuse);
+      break;
+    case MaterialType::metallicRoughness:
+      metallicRoughness(node, m);
+      break;
+    case MaterialType::coatedConductor:
+      coatedConductor(node, m);
       break;
     case MaterialType::twoSided:
       nested();
