@@ -1,7 +1,8 @@
 // Expectation maximisation for vMF mixtures (Banerjee et al. 2005, "Clustering on the unit
 // hypersphere using von Mises-Fisher distributions", JMLR 6), weighted, and for data cut off at the
 // horizon: what the current lobes have below it is added to their moments as missing data, without
-// which wide lobes come out too narrow.
+// which wide lobes come out too narrow. A lobe left with a single sample would become a needle:
+// none gets narrower than the solid angle of its samples.
 #include "lobelia/bsdf/gaussian_mixture.h"
 
 #include <vector>
@@ -16,10 +17,17 @@ constexpr float kMinSharpness = 1e-2f, kMaxFitSharpness = 1e6f;
 constexpr float kMaxBelow = 0.9f;
 constexpr float kMinAxisZ = 0.01f;  // lights need axes on their side of the surface
 
+// What falls to a part: the moments of its directions, and their density weighted likewise.
+struct Support {
+  lobes::Moment moment;
+  float density = 0;
+};
+
 // Adds direction w, spread over the parts by their densities: all of `mass` (data), or, with
 // area > 0, the mass that the parts themselves have in that solid angle.
-void scatter(std::span<const ShapePart> parts, std::span<const float> scales, Vec3f w, float mass,
-             float area, std::span<lobes::Moment> moments) {
+void scatter(std::span<const ShapePart> parts, std::span<const float> scales,
+             const LobeSample& sample, Vec3f w, float mass, float area,
+             std::span<Support> support) {
   std::array<float, kMaxParts> density;
   float sum = 0;
   for (size_t j = 0; j < parts.size(); ++j) {
@@ -28,7 +36,8 @@ void scatter(std::span<const ShapePart> parts, std::span<const float> scales, Ve
   if (!(sum > 0)) return;
   const float factor = area > 0 ? area : mass / sum;
   for (size_t j = 0; j < parts.size(); ++j) {
-    moments[j].add({factor * density[j], w * (factor * density[j])});
+    support[j].moment.add({factor * density[j], w * (factor * density[j])});
+    support[j].density += factor * density[j] / sample.solidAngle;
   }
 }
 
@@ -43,24 +52,29 @@ void fitMixture(std::span<const LobeSample> samples, int iterations, bool cutOff
   std::array<float, kMaxParts> scales;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     for (size_t j = 0; j < n; ++j) scales[j] = parts[j].share / lobes::integral(parts[j].sharpness);
-    std::array<lobes::Moment, kMaxParts> seen{}, below{};
+    std::array<Support, kMaxParts> seen{}, below{};
     for (const LobeSample& s : samples) {
-      scatter(parts, std::span(scales).first(n), s.w, s.weight / static_cast<float>(total), 0,
+      scatter(parts, std::span(scales).first(n), s, s.w, s.weight / static_cast<float>(total), 0,
               seen);
-      if (cutOff) scatter(parts, std::span(scales).first(n), flipZ(s.w), 0, s.solidAngle, below);
+      if (cutOff) scatter(parts, std::span(scales).first(n), s, flipZ(s.w), 0, s.solidAngle, below);
     }
     float hidden = 0, sum = 0;
-    for (size_t j = 0; j < n; ++j) hidden += below[j].weight;
+    for (size_t j = 0; j < n; ++j) hidden += below[j].moment.weight;
     const float complete = 1 / (1 - std::min(hidden, kMaxBelow));
     const float cap = hidden > kMaxBelow ? kMaxBelow / hidden : 1.f;
+    std::array<float, kMaxParts> narrowest;
     for (size_t j = 0; j < n; ++j) {
-      seen[j].add({below[j].weight * complete * cap, below[j].first * (complete * cap)});
-      sum += seen[j].weight;
+      lobes::Moment& moment = seen[j].moment;
+      narrowest[j] = kTwoPi * seen[j].density / std::max(moment.weight, 1e-30f);
+      moment.add(
+          {below[j].moment.weight * complete * cap, below[j].moment.first * (complete * cap)});
+      sum += moment.weight;
     }
     for (size_t j = 0; j < n; ++j) {
-      parts[j].share = seen[j].weight / sum;
+      parts[j].share = seen[j].moment.weight / sum;
       if (!(parts[j].share > 1e-5f)) continue;  // its place no longer matters
-      const lobes::SphericalGaussian g = lobes::lobeOf(seen[j], kMaxFitSharpness);
+      const lobes::SphericalGaussian g =
+          lobes::lobeOf(seen[j].moment, std::min(narrowest[j], kMaxFitSharpness));
       parts[j].sharpness = std::max(g.sharpness, kMinSharpness);
       parts[j].axis = normalize(Vec3f(g.axis.x, g.axis.y, std::max(g.axis.z, kMinAxisZ)));
     }
