@@ -12,9 +12,16 @@ Scene makeStudyGgx(float detail);
 Scene makeStudyPane(float detail);
 Scene makeStudyMirror(float detail);
 Scene makeStudyRoom(float detail);
+Scene makeKitchen(float detail);
+Scene makeKitchenStove(float detail);
+Scene makeKitchenEvening(float detail);
 
 Scene makeBox(float detail);
-enum class TableauFloor : uint8_t { constant, stripes, ward };
+enum class TableauFloor : uint8_t { constant, stripes, card, satin, ward };
 Scene makeTableau(float detail, TableauFloor floor);
+Scene makeTreasure(float detail);
+Scene makeHall(float detail);
+Scene makeTeapot(float detail, float exponent);
+Scene makeGlasses(float detail);
 
 }  // namespace lobelia::builtin

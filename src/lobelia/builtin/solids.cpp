@@ -15,36 +15,43 @@ float signedPower(float v, float exponent) {
 
 }  // namespace
 
+Mesh loft(const std::vector<Ring>& rings, bool startCap, bool endCap, float creaseDegrees) {
+  Mesh mesh;
+  const size_t corners = rings.front().outline.size();
+  for (const Ring& ring : rings)
+    for (size_t j = 0; j <= corners; ++j) {
+      const Vec2f p = ring.outline[j % corners];
+      mesh.positions.push_back({p.x, ring.height, -p.y});
+    }
+  addGrid(mesh, 0, static_cast<int>(rings.size()) - 1, static_cast<int>(corners));
+  const auto addCap = [&](const Ring& ring, bool up) {
+    const auto base = static_cast<uint32_t>(mesh.positions.size());
+    for (const Vec2f p : ring.outline) mesh.positions.push_back({p.x, ring.height, -p.y});
+    for (const Vec3u t : triangulate(ring.outline))
+      mesh.triangles.push_back(up ? Vec3u(base + t.x, base + t.y, base + t.z)
+                                  : Vec3u(base + t.x, base + t.z, base + t.y));
+  };
+  if (startCap) addCap(rings.front(), false);
+  if (endCap) addCap(rings.back(), true);
+  return withProjectedUvs(creased(std::move(mesh), creaseDegrees));
+}
+
 Mesh extrude(const Polygon& polygon, float height, float bevel, int bevelSegments) {
-  // Rings from the lower face outwards, up and inwards again: (inset, height).
-  std::vector<Vec2f> rings;
+  // From the lower face outwards, up and inwards again: (inset, height).
+  std::vector<Vec2f> edge;
   const int n = bevel > 0 ? bevelSegments : 0;
   for (int i = 0; i <= n; ++i) {
     const float a = n > 0 ? kPi / 2 * fraction(i, n) : kPi / 2;
-    rings.push_back({bevel * (1 - std::sin(a)), bevel * (1 - std::cos(a))});
+    edge.push_back({bevel * (1 - std::sin(a)), bevel * (1 - std::cos(a))});
   }
+  std::vector<Ring> rings;
+  const auto add = [&](float in, float y) {
+    rings.push_back({in > 0 ? inset(polygon, in) : polygon, y});
+  };
+  for (int i = 0; i <= n; ++i) add(edge[static_cast<size_t>(i)].x, edge[static_cast<size_t>(i)].y);
   for (int i = n; i >= 0; --i)
-    rings.push_back({rings[static_cast<size_t>(i)].x, height - rings[static_cast<size_t>(i)].y});
-  Mesh mesh;
-  const int corners = static_cast<int>(polygon.size());
-  std::vector<Polygon> outlines;
-  for (const Vec2f ring : rings) {
-    outlines.push_back(ring.x > 0 ? inset(polygon, ring.x) : polygon);
-    for (int j = 0; j <= corners; ++j) {
-      const Vec2f p = outlines.back()[static_cast<size_t>(j % corners)];
-      mesh.positions.push_back({p.x, ring.y, -p.y});
-    }
-  }
-  addGrid(mesh, 0, static_cast<int>(rings.size()) - 1, corners);
-  for (const bool top : {false, true}) {
-    const Polygon& outline = top ? outlines.back() : outlines.front();
-    const auto base = static_cast<uint32_t>(mesh.positions.size());
-    for (const Vec2f p : outline) mesh.positions.push_back({p.x, top ? height : 0.f, -p.y});
-    for (const Vec3u t : triangulate(outline))
-      mesh.triangles.push_back(top ? Vec3u(base + t.x, base + t.y, base + t.z)
-                                   : Vec3u(base + t.x, base + t.z, base + t.y));
-  }
-  return withProjectedUvs(creased(std::move(mesh), 50));
+    add(edge[static_cast<size_t>(i)].x, height - edge[static_cast<size_t>(i)].y);
+  return loft(rings, true, true);
 }
 
 Mesh lathe(const std::vector<Vec2f>& profile, int segments, float creaseDegrees) {

@@ -14,6 +14,14 @@ namespace lobelia::builtin {
 // projectUvs().
 Mesh extrude(const Polygon& polygon, float height, float bevel = 0, int bevelSegments = 0);
 
+// Skin over polygons of the same number of corners at the given heights, each as in extrude(), from
+// the first (its inside facing down when `startCap`) to the last (up when `endCap`).
+struct Ring {
+  Polygon outline;
+  float height;
+};
+Mesh loft(const std::vector<Ring>& rings, bool startCap, bool endCap, float creaseDegrees = 50);
+
 // Surface of revolution around y of a polyline of (distance from the axis, height), the outside at
 // its right (for a wall: upwards); edges sharper than creaseDegrees stay sharp.
 // uv = (angle / 2 pi, share of the polyline's length).

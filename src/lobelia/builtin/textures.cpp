@@ -137,7 +137,9 @@ SurfaceImages tiles(const Tiles& t, int size) {
     const float tone = 1 + t.toneSpread * (2 * cellRandom(at.column, at.row, t.seed) - 1) +
                        t.mottle * fbm(uv * 12.f, {12, 12}, 5, t.seed);
     const float dirt = 1 + 0.15f * fbm(uv * 24.f, {24, 24}, 3, t.seed + 9);
-    return min(lerp(t.grout * dirt, t.color * tone, isTile(at)), Rgb(0.95f));
+    const bool isSecond = t.second.x >= 0 && (at.column + at.row) % 2 != 0;
+    return min(lerp(t.grout * dirt, (isSecond ? t.second : t.color) * tone, isTile(at)),
+               Rgb(0.95f));
   });
   images.height = dataImage(size, size, [&](Vec2f uv) {
     const OnTile at = onTile(t, uv);

@@ -32,6 +32,7 @@ SurfaceImages wood(const Wood& wood, int size);
 // differ.
 struct Tiles {
   Rgb color{0.75f, 0.74f, 0.70f}, grout{0.35f, 0.34f, 0.32f};
+  Rgb second{-1.f, -1.f, -1.f};  // of every other tile, when not negative (even columns and rows)
   int columns = 4, rows = 4;
   bool brickBond = false;
   float groutWidth =
