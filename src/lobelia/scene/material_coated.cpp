@@ -52,7 +52,7 @@ void addCoatedConductorLobes(const Builder& b) {
   metal.alphaX = throughCoat(metal.alphaX, smoothCoat ? 0 : coat.alphaX, n);
   metal.alphaY = throughCoat(metal.alphaY, smoothCoat ? 0 : coat.alphaY, n);
   Rgb value = b.color(m.specular);
-  if (smoothCoat && std::max(metal.alphaX, metal.alphaY) <= kMinAlpha * std::max(n, 1.f)) {
+  if (smoothCoat && std::max(metal.alphaX, metal.alphaY) <= 2 * kMinAlpha * std::max(n, 1.f)) {
     metal.type = LobeType::deltaReflection;
     value *= sqr(1 - lobeAlbedo(coat, std::abs(b.cosThetaO)).x);
   } else {
