@@ -300,6 +300,59 @@ TEST(CommandLine, InterruptAtAnyTime) {
   }
 }
 
+// Virtual lights and path tracing agree on the light of suns and photometric emitters.
+TEST(CommandLine, SunsAndPhotometricLampsAgreeAmongMethods) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "lamp.ies")
+      << "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 4 3 1 2 0 0 0 1 1 10\n0 30 60 90\n0 90 180\n"
+         "9 8 4 0\n9 5 1 0\n9 3 2 1\n";
+  const std::string stage =
+      "<scene version=\"3.0.0\"><integrator type=\"path\"><integer name=\"max_depth\" value=\"4\"/>"
+      "</integrator><sensor type=\"perspective\"><float name=\"fov\" value=\"50\"/><transform "
+      "name=\"to_world\"><lookat origin=\"0 3 8\" target=\"0 1 0\" up=\"0 1 0\"/></transform>"
+      "<film type=\"hdrfilm\"><integer name=\"width\" value=\"20\"/><integer name=\"height\" "
+      "value=\"16\"/></film></sensor><shape type=\"rectangle\"><transform name=\"to_world\">"
+      "<rotate x=\"1\" angle=\"-90\"/><scale value=\"4\"/></transform><bsdf "
+      "type=\"roughconductor\">"
+      "<float name=\"alpha\" value=\"0.4\"/></bsdf></shape><shape type=\"sphere\"><point "
+      "name=\"center\" y=\"1\"/></shape><shape type=\"rectangle\"><transform name=\"to_world\">"
+      "<scale value=\"4\"/><translate z=\"-3\"/></transform></shape>";
+  const std::string sun =
+      "<emitter type=\"sun\"><rgb name=\"irradiance\" value=\"3 2 1\"/><vector name=\"direction\" "
+      "value=\"0.4 -1 -0.8\"/><float name=\"angular_radius\" value=\"4\"/></emitter>";
+  const std::string lamp =
+      "<emitter type=\"ies\"><string name=\"filename\" value=\"lamp.ies\"/><transform "
+      "name=\"to_world\"><rotate x=\"1\" angle=\"90\"/><translate x=\"1\" y=\"3.5\" z=\"1\"/>"
+      "</transform></emitter>";
+  for (const std::string& emitters : {sun, lamp, sun + lamp}) {
+    std::ofstream(folder / "scene.xml") << stage << emitters << "</scene>";
+    const auto mean = [&](const std::string& method) {
+      const std::string out = folder / "a.exr";
+      const ProgramResult r = runProgram("render " + (folder / "scene.xml") + " --strict --quiet " +
+                                         method + " -o " + out);
+      EXPECT_EQ(r.exitCode, 0) << r.err;
+      const Film film = io::readFilm(out);
+      double sum = 0;
+      for (size_t i = 0; i < film.pixelCount(); ++i) sum += double{luminance(film.rgb(i))};
+      return sum / static_cast<double>(film.pixelCount());
+    };
+    const double path = mean("--lights path --spp 256");
+    EXPECT_GT(path, 0.01);
+    EXPECT_NEAR(mean("--lights glossy --direct nee --spp 64"), path, 0.03 * path);
+    EXPECT_NEAR(mean("--lights glossy --direct lights --spp 64"), path, 0.03 * path);
+  }
+}
+
+TEST(CommandLine, SkyLightsBuiltInScenes) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "a.exr";
+  EXPECT_EQ(runProgram(kSmall + ("--sky 3,0.3,1,0.4 --spp 4 -o " + out)).exitCode, 0);
+  EXPECT_GT(io::readFilm(out).pixelCount(), 0u);
+  expectFailure(kSmall + ("--sky 3,1 -o " + out), 2, "TURBIDITY");
+  expectFailure(kSmall + ("--sky 30,0,1,0 -o " + out), 3, "turbidity");
+  expectFailure(kSmall + ("--sky 3,0,1,0 --environment x.exr -o " + out), 2, "--environment");
+}
+
 TEST(CommandLine, SceneRoundTripRendersTheSame) {
   const TemporaryFolder folder;
   ASSERT_EQ(runProgram("scene cornell --detail 0.1 --quiet -o " + (folder / "scene")).exitCode, 0);

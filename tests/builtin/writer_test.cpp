@@ -231,6 +231,7 @@ class Everything {
     shared.radiance = checker_;
     scene.instances[2].emitter = scene.instances[5].emitter = put(scene.emitters, shared);
     shared.radiance = randomRgb() * 1e4f;
+    shared.group = "panels";
     scene.instances[6].emitter = put(scene.emitters, shared);
   }
 
@@ -255,6 +256,17 @@ class Everything {
     Emitter sun = emitter(EmitterType::directional);
     sun.direction = {0, -1, 0};
     put(scene.emitters, sun);
+    sun = emitter(EmitterType::sun);
+    sun.toWorld = Transform();
+    sun.direction = {0, 0, 1};
+    sun.angularRadius = 0.01f;
+    sun.group = "day & night";
+    put(scene.emitters, sun);
+    Emitter lamp = emitter(EmitterType::goniometric);
+    lamp.image = {4};
+    lamp.scale = 1.7f;
+    lamp.group = "lamps";
+    put(scene.emitters, lamp);
     Emitter projector = emitter(EmitterType::projector);
     projector.radiance = bitmaps_[0];
     projector.scale = 3.3f;

@@ -93,10 +93,10 @@ class SceneText {
     return out + material(m.a) + " " + material(m.b) + ")";
   }
   std::string emitter(const Emitter& e) const {
-    return fmt::format("emitter {} {} {} {} {} {} {} {} {} {}", int(e.type),
+    return fmt::format("emitter {} '{}' {} {} {} {} {} {} {} {} {} {}", int(e.type), e.group,
                        matrix(e.type == EmitterType::directional ? Mat4() : e.toWorld.to),
                        color(e.radiance), e.scale, image(e.image), e.cutoff, e.beamWidth,
-                       texture(e.pattern), e.fov, rgb(e.direction));
+                       texture(e.pattern), e.fov, rgb(e.direction), e.angularRadius);
   }
   std::string mesh(MeshHandle h) const {
     const Mesh& m = s_[h];

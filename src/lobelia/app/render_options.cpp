@@ -58,6 +58,13 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
   c.add_option("-D,--define", o.definitions, "name=value for a scene's $name")
       ->allow_extra_args(false);
   c.add_option("--environment", o.environment, "Equirectangular HDR image that lights the scene");
+  c.add_option("--sky", o.sky,
+               "TURBIDITY,X,Y,Z: sun and sky light the scene; the sun in direction X,Y,Z of the "
+               "scene, turbidity 2 (very clear) to 10");
+  c.add_option("--time", o.time, "Seconds at which an animated scene (glTF) is taken")
+      ->check(finiteNumber(-HUGE_VAL))
+      ->capture_default_str();
+  c.add_option("--variant", o.variant, "Material variant of a glTF scene");
   c.add_flag("--strict", o.strict, "Warnings about the scene are errors");
   c.add_option("--detail", o.detail, "Tessellation of built-in scenes")
       ->check(finiteNumber(0.01, 100))

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "lobelia/io/image_io.h"
+#include "lobelia/io/sky.h"
 
 namespace lobelia::io {
 
@@ -15,12 +16,23 @@ Scene readScene(const std::string& file, const ReadSettings& settings, Context& 
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".xml") return readMitsuba(file, settings, context);
+  if (extension == ".gltf" || extension == ".glb") return readGltf(file, settings, context);
+  if (extension == ".obj" || extension == ".ply") return readBareMesh(file, settings, context);
+  const bool isPackedPbrt = extension == ".gz" && file.find(".pbrt.") != std::string::npos;
+  if (extension == ".pbrt" || isPackedPbrt) return readPbrt(file, settings, context);
   throw InputError({file, 0, 0}, "no reader knows the extension '" + extension +
-                                     "'; scenes that can be read: .xml (Mitsuba 0.5 to 3)");
+                                     "'; scenes that can be read: .xml (Mitsuba 0.5 to 3), "
+                                     ".pbrt and .pbrt.gz (PBRT-v4), .gltf and .glb (glTF 2.0), "
+                                     ".obj and .ply (meshes)");
 }
 
 // Handles of the other emitters stay valid: an environment there is replaced in its place.
 void applyEnvironment(Scene& scene, const ReadSettings& settings) {
+  if (!settings.sky.empty()) {
+    if (!settings.environment.empty())
+      throw UsageError("--environment and --sky: a scene can have one of them");
+    return applySky(scene, settings.sky);
+  }
   if (settings.environment.empty()) return;
   Emitter emitter;
   emitter.type = EmitterType::environment;

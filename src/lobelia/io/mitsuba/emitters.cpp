@@ -1,4 +1,6 @@
-// Emitters of Mitsuba scenes: area, point, spot, directional, constant, envmap, projector.
+// Emitters of Mitsuba scenes: area, point, spot, directional, constant, envmap, projector; ours:
+// sun with its irradiance. Others are in sky_emitters.cpp. `group` names the light group of any of
+// them.
 
 #include "lobelia/io/mitsuba/reader.h"
 
@@ -8,8 +10,10 @@ namespace {
 constexpr float kDegree = kPi / 180;
 
 const std::vector<std::string>& emitterTypes() {
-  static const std::vector<std::string> types{"area",     "point",  "spot",     "directional",
-                                              "constant", "envmap", "projector"};
+  static const std::vector<std::string> types{
+      "area",      "point", "spot", "directional", "constant", "envmap",
+      "projector", "sky",   "sun",  "sunsky",      "ies",      "goniometric",
+  };
   return types;
 }
 
@@ -60,6 +64,7 @@ EmitterHandle Reader::areaEmitter(const Element& element) {
   e.type = EmitterType::area;
   e.name = object.id();
   e.radiance = color(object, "radiance", Rgb(1.f), SpectrumUse::emission);
+  e.group = object.string("group").value_or("");
   ignoreSampling(object);
   object.finish();
   const EmitterHandle handle = add(std::move(e), object.where());
@@ -70,6 +75,11 @@ EmitterHandle Reader::areaEmitter(const Element& element) {
 void Reader::emitter(const Element& element) {
   Object object = open(element);
   const std::string& type = object.type();
+  if (isComputedSky(object)) {
+    sunAndSky(object);
+    ignoreSampling(object);
+    return object.finish();
+  }
   Emitter e;
   if (type == "point") {
     e.type = EmitterType::point;
@@ -103,15 +113,18 @@ void Reader::emitter(const Element& element) {
     }
   } else if (type == "directional") {
     e.type = EmitterType::directional;
-    refuseBoth(object, "direction");
     e.toWorld = placement(object);
-    Vec3f direction = e.toWorld.vector({0, 0, 1});
-    if (const std::optional<Vec3d> d = object.vector("direction")) {
-      direction = {static_cast<float>(d->x), static_cast<float>(d->y), static_cast<float>(d->z)};
-      if (lengthSquared(*d) == 0) throw InputError(object.where(), "the direction is zero");
-    }
-    e.direction = normalize(direction);
+    e.direction = direction(object);
     e.radiance = color(object, "irradiance", Rgb(1.f), SpectrumUse::emission);
+  } else if (type == "sun") {
+    e.type = EmitterType::sun;
+    e.toWorld = placement(object);
+    e.direction = direction(object);
+    e.radiance = color(object, "irradiance", Rgb(1.f), SpectrumUse::emission);
+    e.angularRadius = object.number("angular_radius", e.angularRadius / kDegree) * kDegree;
+    if (!(e.angularRadius >= 0 && e.angularRadius <= kPi / 2)) {
+      throw InputError(object.where(), "the sun's angular radius lies between 0 and 90 degrees");
+    }
   } else if (type == "constant") {
     e.type = EmitterType::constant;
     e.radiance = color(object, "radiance", Rgb(1.f), SpectrumUse::emission);
@@ -120,15 +133,29 @@ void Reader::emitter(const Element& element) {
     e = environment(object);
   } else if (type == "projector") {
     e = projector(object);
+  } else if (type == "goniometric" || type == "ies") {
+    e = goniometric(object);
   } else if (type == "area") {
     throw InputError(object.where(), "an area emitter belongs inside a shape");
   } else {
     unknownType(object, emitterTypes());
   }
   e.name = object.id();
+  e.group = object.string("group").value_or("");
   ignoreSampling(object);
   object.finish();
   add(std::move(e), object.where());
+}
+
+// Where a directional emitter's light travels to.
+Vec3f Reader::direction(Object& object) {
+  refuseBoth(object, "direction");
+  if (const std::optional<Vec3d> d = object.vector("direction")) {
+    if (lengthSquared(*d) == 0) throw InputError(object.where(), "the direction is zero");
+    return normalize(
+        Vec3f{static_cast<float>(d->x), static_cast<float>(d->y), static_cast<float>(d->z)});
+  }
+  return normalize(placement(object).vector({0, 0, 1}));
 }
 
 Emitter Reader::environment(Object& object) {

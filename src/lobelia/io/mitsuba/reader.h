@@ -76,7 +76,13 @@ class Reader {
   EmitterHandle areaEmitter(const Element& element);
   Emitter environment(Object& object);
   Emitter projector(Object& object);
+  Vec3f direction(Object& object);
   EmitterHandle add(Emitter emitter, const Location& where);
+  // sky_emitters.cpp
+  static bool isComputedSky(Object& object);
+  void sunAndSky(Object& object);
+  Emitter goniometric(Object& object);
+  ImageHandle photometry(const std::string& file, const Location& where);
 
   // sensors.cpp
   void sensor(const Element& element);

@@ -46,6 +46,31 @@ const char* filterName(PixelFilter filter) {
   return kNames[static_cast<size_t>(filter)];
 }
 
+// The name of the plugin, ours where Mitsuba has none.
+const char* pluginName(EmitterType type) {
+  switch (type) {
+    case EmitterType::area:
+      return "area";
+    case EmitterType::point:
+      return "point";
+    case EmitterType::spot:
+      return "spot";
+    case EmitterType::directional:
+      return "directional";
+    case EmitterType::constant:
+      return "constant";
+    case EmitterType::environment:
+      return "envmap";
+    case EmitterType::projector:
+      return "projector";
+    case EmitterType::goniometric:
+      return "goniometric";
+    case EmitterType::sun:
+      break;
+  }
+  return "sun";
+}
+
 void createFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -226,17 +251,16 @@ void Writer::writeInstances() {
 }
 
 void Writer::writeEmitters() {
-  constexpr const char* kTypes[] = {"area",     "point",  "spot",     "directional",
-                                    "constant", "envmap", "projector"};
   for (const Emitter& emitter : scene_.emitters) {
     if (emitter.type == EmitterType::area) continue;  // written with its shapes
-    emitterProperties(object(root_, "emitter", kTypes[static_cast<size_t>(emitter.type)],
+    emitterProperties(object(root_, "emitter", pluginName(emitter.type),
                              ids_.make(emitter.name, "emitter")),
                       emitter);
   }
 }
 
 void Writer::emitterProperties(Node node, const Emitter& e) {
+  if (!e.group.empty()) property(node, "string", "group", e.group);
   switch (e.type) {
     case EmitterType::area:
       color(node, "radiance", e.radiance);
@@ -252,6 +276,9 @@ void Writer::emitterProperties(Node node, const Emitter& e) {
       property(node, "float", "beam_width", text(degrees(e.beamWidth)));
       if (e.pattern.valid()) reference(node, textureId(e.pattern, false), "texture");
       break;
+    case EmitterType::sun:
+      property(node, "float", "angular_radius", text(degrees(e.angularRadius)));
+      [[fallthrough]];
     case EmitterType::directional:
       color(node, "irradiance", e.radiance);
       if (normalize(e.toWorld.vector({0, 0, 1})) == e.direction) {
@@ -265,6 +292,12 @@ void Writer::emitterProperties(Node node, const Emitter& e) {
       break;
     case EmitterType::environment:
       property(node, "string", "filename", imageFiles_[e.image.index]);
+      property(node, "float", "scale", text(e.scale));
+      transform(node, "to_world", e.toWorld.to);
+      break;
+    case EmitterType::goniometric:
+      property(node, "string", "filename", imageFiles_[e.image.index]);
+      color(node, "intensity", e.radiance);
       property(node, "float", "scale", text(e.scale));
       transform(node, "to_world", e.toWorld.to);
       break;

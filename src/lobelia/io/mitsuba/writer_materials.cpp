@@ -113,7 +113,8 @@ const char* pluginName(MaterialType type) {
 void Writer::writeImages() {
   std::set<uint32_t> surroundings;  // envmaps know no raw images
   for (const Emitter& e : scene_.emitters)
-    if (e.type == EmitterType::environment) surroundings.insert(e.image.index);
+    if (e.type == EmitterType::environment || e.type == EmitterType::goniometric)
+      surroundings.insert(e.image.index);
   Names files;
   for (size_t i = 0; i < scene_.images.size(); ++i) {
     const Image& image = scene_.images[i];
