@@ -78,6 +78,8 @@ void finishMesh(Mesh& mesh, const std::string& file, const MeshOptions& options,
   checkFinite(mesh, where);
   if (options.faceNormals) {
     mesh.normals.clear();
+  } else if (mesh.normals.empty() && !options.smooth && options.maxSmoothAngle < 0) {
+    return;
   } else if (options.maxSmoothAngle >= 0 || mesh.normals.empty()) {
     mesh.normals.clear();
     computeNormals(mesh, options.maxSmoothAngle);

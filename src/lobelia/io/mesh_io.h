@@ -3,7 +3,7 @@
 // The readers throw InputError: at `from` when the file cannot be opened, at the place in the file
 // when its contents are wrong. What is odd but usable (degenerate triangles, unknown statements,
 // zero normals) is added to `findings`. Files without vertex normals get smooth ones, as in Mitsuba,
-// unless faceNormals is set.
+// unless faceNormals is set or smooth is not. PLY files may be packed with gzip.
 #pragma once
 
 #include <optional>
@@ -16,6 +16,7 @@ namespace lobelia::io {
 
 struct MeshOptions {
   bool faceNormals = false;       // drop vertex normals
+  bool smooth = true;             // compute vertex normals where the file has none
   std::optional<bool> flipTexCoords;  // v -> 1 - v; empty: Mitsuba's default (OBJ yes, PLY no)
   float maxSmoothAngle = -1;      // degrees: recompute normals, splitting at sharper edges
   int shapeIndex = 0;             // serialized

@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "lobelia/io/file_bytes.h"
+#include "lobelia/io/gzip.h"
 #include "lobelia/io/mesh_checks.h"
 #include "lobelia/io/ply_header.h"
 
@@ -331,7 +332,8 @@ uint64_t readFaces(Cursor& in, const PlyElement& element, Mesh& mesh) {
 
 Mesh readPly(const std::string& file, const MeshOptions& options, const Location& from,
              std::vector<Finding>& findings) {
-  const std::string bytes = readFileBytes(file, "mesh", from);
+  std::string bytes = readFileBytes(file, "mesh", from);
+  if (isGzip(bytes)) bytes = gunzip(bytes, {file, 0, 0});
   const PlyHeader header = parsePlyHeader(bytes, file);
   Cursor in(bytes, header, file);
   Mesh mesh;

@@ -65,7 +65,7 @@ Scene readMitsuba(const std::string& file, const ReadSettings& settings, Context
     if (!folder.empty()) scene.name = folder.string();
   }
   std::vector<Finding> found;
-  mitsuba::Findings findings(found, settings.strict);
+  Findings findings(found, settings.strict);
   const mitsuba::Document document = mitsuba::loadDocument(file, settings.definitions, findings);
   mitsuba::Reader reader(document, scene, findings, context);
   reader.read();

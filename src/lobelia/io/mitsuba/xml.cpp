@@ -285,21 +285,6 @@ class Loader {
 
 }  // namespace
 
-void Findings::warn(const Location& where, const std::string& message) {
-  if (strict_) throw InputError(where, message + " (--strict)");
-  out_.push_back({Severity::warning, where, message});
-}
-
-void Findings::add(const std::vector<Finding>& findings) {
-  for (const Finding& f : findings) {
-    if (f.severity == Severity::warning) {
-      warn(f.where, f.message);
-    } else {
-      out_.push_back(f);
-    }
-  }
-}
-
 const Attribute* Element::find(std::string_view attribute) const {
   for (const Attribute& a : attributes) {
     if (a.name == attribute) return &a;

@@ -1,0 +1,128 @@
+// Area lights, and what can only be said of them when all meshes are read.
+//
+// `power` is that of the whole shape here; PBRT gives it to each triangle of a mesh. Lights that
+// shine from both sides get a second instance for the back, set back by 1e-4 of the shape's size,
+// as an emitter of ours has one side.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lobelia/io/mesh_io.h"
+#include "lobelia/io/pbrt/reader.h"
+
+namespace lobelia::io::pbrt {
+namespace {
+
+constexpr float kBackDistance = 1e-4f;
+
+double areaOf(const Scene& scene, const Instance& instance) {
+  const Mesh& mesh = scene[instance.mesh];
+  double area = 0;
+  for (const Vec3u t : mesh.triangles) {
+    const Vec3f p = instance.toWorld.point(mesh.positions[t.x]);
+    const Vec3f a = instance.toWorld.point(mesh.positions[t.y]) - p;
+    const Vec3f b = instance.toWorld.point(mesh.positions[t.z]) - p;
+    area += 0.5 * static_cast<double>(length(cross(a, b)));
+  }
+  return area;
+}
+
+}  // namespace
+
+void Reader::areaLightSource(const Token& token) {
+  auto light = std::make_shared<AreaLight>();
+  light->type = quoted(token, "type");
+  light->where = token.where;
+  light->parameters = readParameters(*in_);
+  light->colorSpace = state_.colorSpace;
+  if (light->type != "diffuse")
+    throw InputError(token.where, unknownName("area light", light->type, {"diffuse"}));
+  state_.areaLight = std::move(light);
+}
+
+EmitterHandle Reader::areaEmitter() {
+  AreaLight& light = *state_.areaLight;
+  if (light.emitter.valid()) return light.emitter;
+  const bool isFirst = !light.wasUsed;
+  light.wasUsed = true;
+  std::swap(state_.colorSpace, light.colorSpace);
+  Parameters in(light.parameters, state_.defaults["light"], light.where);
+  Emitter e;
+  e.type = EmitterType::area;
+  PendingArea pending;
+  if (const std::optional<std::string> file = in.string("filename")) {
+    if (in.has("L"))
+      throw InputError(light.where, "the area light has both L and filename; give one of them");
+    Texture t;
+    t.type = TextureType::bitmap;
+    t.filter = Filter::nearest;  // as PBRT
+    t.image = image(*file, {}, light.where);
+    t.uvMatrix[1][1] = -1, t.uvMatrix[1][2] = 1;
+    const ColorParam picture = add(std::move(t));
+    pending.textureMean = static_cast<double>(luminance(mean(scene_, picture)));
+    e.radiance = product(picture, Rgb(in.number("scale", 1.f)));
+  } else {
+    e.radiance = lightColor(in, "L");
+  }
+  pending.power = static_cast<double>(in.number("power", -1.f));
+  pending.twoSided = in.boolean("twosided", false);
+  if (isFirst) in.finish("area light", findings_);
+  std::swap(state_.colorSpace, light.colorSpace);
+  pending.emitter = add(std::move(e));
+  if (pending.power > 0 || pending.twoSided) pendingAreas_.push_back(pending);
+  // The radiance of a given power depends on the shape's area.
+  if (!(pending.power > 0)) light.emitter = pending.emitter;
+  return pending.emitter;
+}
+
+void Reader::finishAreaLights() {
+  for (const PendingArea& pending : pendingAreas_) {
+    double area = 0;
+    const size_t count = scene_.instances.size();
+    for (size_t i = 0; i < count; ++i) {
+      if (scene_.instances[i].emitter != pending.emitter) continue;
+      area += areaOf(scene_, scene_.instances[i]);
+      if (pending.twoSided) makeTwoSided(i);
+    }
+    const double sides = pending.twoSided ? 2 : 1;
+    const double emitted = pending.textureMean * sides * area * static_cast<double>(kPi);
+    if (!(pending.power > 0) || !(emitted > 0)) continue;
+    ColorParam& radiance = scene_.emitters[pending.emitter.index].radiance;
+    radiance = product(radiance, Rgb(static_cast<float>(pending.power / emitted)));
+  }
+}
+
+void Reader::makeTwoSided(size_t index) {
+  Instance back = scene_.instances[index];
+  Mesh mesh = scene_[back.mesh];
+  mesh.name += "-back";
+  mesh.isUnitSphere = false;
+  std::vector<Vec3f> normals = mesh.normals;
+  if (normals.empty()) {
+    Mesh smooth = mesh;
+    computeNormals(smooth, -1);
+    normals = smooth.normals;
+    normals.resize(mesh.positions.size());
+  }
+  Bounds3f box;
+  for (const Vec3f& p : mesh.positions) box.add(p);
+  const float distance = (back.flipNormals ? 1.f : -1.f) * kBackDistance * box.radius();
+  for (size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i] += normals[i] * distance;
+  back.mesh = add(std::move(mesh));
+  back.flipNormals = !back.flipNormals;
+  back.name += "-back";
+  scene_.instances.push_back(std::move(back));
+}
+
+// The sensor's exposure scales the image, and so all light.
+void Reader::applySensor() {
+  if (imagingRatio_ == 1) return;
+  for (Emitter& e : scene_.emitters) {
+    if (e.type == EmitterType::environment || e.type == EmitterType::projector)
+      e.scale *= imagingRatio_;
+    else
+      e.radiance = product(e.radiance, Rgb(imagingRatio_));
+  }
+}
+
+}  // namespace lobelia::io::pbrt
