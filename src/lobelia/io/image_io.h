@@ -1,6 +1,8 @@
 // Reading and writing of images (OpenImageIO).
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 
 #include "lobelia/base/error.h"
@@ -16,6 +18,9 @@ struct ImageOptions {
 };
 // Throws InputError (missing, corrupt, absurd size).
 Image readImage(const std::string& file, const ImageOptions& options, const Location& from = {});
+// The same from the bytes of a file in memory; `name` is what the image and messages call it.
+Image readImage(std::span<const std::byte> bytes, const std::string& name,
+                const ImageOptions& options);
 
 // Film with all layers of an EXR (or the RGB of any other format); alpha kept.
 Film readFilm(const std::string& file);

@@ -1,5 +1,6 @@
 #include "lobelia/io/image_pixels.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -7,6 +8,10 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+
+#include "lobelia/base/file.h"
+#include "lobelia/io/exr_header.h"
 
 namespace lobelia::io {
 namespace {
@@ -20,6 +25,12 @@ void checkRegularFile(const std::string& file, const Location& from) {
   if (exists && S_ISREG(info.st_mode)) return;
   throw InputError(from, fmt::format("cannot read image file '{}': {}", file,
                                      exists ? "not a regular file" : std::strerror(errno)));
+}
+
+void checkExrHeader(std::span<const std::byte> start, uint64_t fileSize, const std::string& name) {
+  const std::string problem = exrHeaderProblem(start, fileSize, kMaxSide);
+  if (!problem.empty())
+    throw InputError({name, 0, 0}, fmt::format("cannot read the image: {}", problem));
 }
 
 void checkSpec(const OIIO::ImageSpec& spec, const std::string& file) {
@@ -80,9 +91,13 @@ StoredImage describe(const OIIO::ImageSpec& spec) {
 
 }  // namespace
 
-std::vector<StoredImage> readStoredImages(const std::string& file, bool all, const Location& from) {
-  checkRegularFile(file, from);
-  const Location where{file, 0, 0};
+namespace {
+
+// From a file, or from memory: `proxy`, with `file` ending in the format's extension. `name` is
+// what messages call it.
+std::vector<StoredImage> readOpened(const std::string& file, OIIO::Filesystem::IOProxy* proxy,
+                                    bool all, const std::string& name) {
+  const Location where{name, 0, 0};
   const auto fail = [&](std::string why) {
     while (!why.empty() && (why.back() == '\n' || why.back() == '.')) why.pop_back();
     if (why.empty()) why = "the reader gives no reason";
@@ -92,11 +107,11 @@ std::vector<StoredImage> readStoredImages(const std::string& file, bool all, con
   try {
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
-    const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(file, &hints);
+    const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(file, &hints, proxy);
     if (!in) fail(OIIO::geterror());
     for (int i = 0; (i == 0 || all) && in->seek_subimage(i, 0); ++i) {
       const OIIO::ImageSpec spec = in->spec_dimensions(i).nchannels > 0 ? in->spec(i) : in->spec();
-      checkSpec(spec, file);
+      checkSpec(spec, name);
       images.push_back(describe(spec));
       // Some formats report truncation only as a message.
       if (!readPixels(*in, spec, i, images.back().pixels) || in->has_error()) fail(in->geterror());
@@ -110,6 +125,37 @@ std::vector<StoredImage> readStoredImages(const std::string& file, bool all, con
   }
   if (images.empty()) fail("it holds no image");
   return images;
+}
+
+// Formats that may lie in memory, by their first bytes; "" for others.
+std::string formatOf(std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("\x89PNG")) return "png";
+  if (text.starts_with("\xff\xd8\xff")) return "jpg";
+  if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP")) return "webp";
+  if (text.starts_with("#?RADIANCE") || text.starts_with("#?RGBE")) return "hdr";
+  if (text.starts_with("v/1\x01")) return "exr";
+  return "";
+}
+
+}  // namespace
+
+std::vector<StoredImage> readStoredImages(const std::string& file, bool all, const Location& from) {
+  checkRegularFile(file, from);
+  constexpr size_t kStart = 1 << 16;  // longer than headers are
+  checkExrHeader(readFileStart(file, kStart), std::filesystem::file_size(file), file);
+  return readOpened(file, nullptr, all, file);
+}
+
+StoredImage readStoredImage(std::span<const std::byte> bytes, const std::string& name) {
+  const std::string format = formatOf(bytes);
+  if (format.empty())
+    throw InputError({name, 0, 0}, "unknown image format; PNG, JPEG, WebP, HDR and EXR are read");
+  checkExrHeader(bytes, bytes.size(), name);
+  OIIO::Filesystem::IOMemReader reader(
+      const_cast<std::byte*>(bytes.data()),  // NOLINT: older releases take no pointer to const
+      bytes.size());
+  return std::move(readOpened("memory." + format, &reader, false, name).front());
 }
 
 void requireFinite(const StoredImage& image, const std::string& file) {

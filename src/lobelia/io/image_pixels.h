@@ -1,8 +1,10 @@
 // Pixels of image files as stored, by OpenImageIO (internal to io).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,9 @@ struct StoredImage {
 // the file: unknown format, damaged, truncated, too large, of a colour model other than grey or
 // RGB.
 std::vector<StoredImage> readStoredImages(const std::string& file, bool all, const Location& from);
+// The first image of a file's bytes in memory, its format told by them; `name` is what messages
+// call it.
+StoredImage readStoredImage(std::span<const std::byte> bytes, const std::string& name);
 
 // The linear value of each stored integer of 8 or 16 bits: as it is, by a gamma, or from sRGB.
 enum class Transfer : uint8_t { linear, gamma, srgb };

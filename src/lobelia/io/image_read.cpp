@@ -68,9 +68,9 @@ std::vector<float> decodingTable(int bits, Transfer transfer, float gamma) {
   return table;
 }
 
-Image readImage(const std::string& file, const ImageOptions& options, const Location& from) {
-  const std::vector<StoredImage> images = readStoredImages(file, false, from);
-  const StoredImage& stored = images.front();
+namespace {
+
+Image makeImage(const StoredImage& stored, const std::string& file, const ImageOptions& options) {
   const std::vector<size_t> select = selectChannels(stored);
   requireFinite(stored, file);
   Image image;
@@ -84,6 +84,17 @@ Image readImage(const std::string& file, const ImageOptions& options, const Loca
       image.pixels.push_back(stored.pixels[p * stored.channels.size() + c]);
   decode(image, stored.integerBits, options);
   return image;
+}
+
+}  // namespace
+
+Image readImage(const std::string& file, const ImageOptions& options, const Location& from) {
+  return makeImage(readStoredImages(file, false, from).front(), file, options);
+}
+
+Image readImage(std::span<const std::byte> bytes, const std::string& name,
+                const ImageOptions& options) {
+  return makeImage(readStoredImage(bytes, name), name, options);
 }
 
 }  // namespace lobelia::io

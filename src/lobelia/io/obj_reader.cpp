@@ -1,6 +1,7 @@
 // Wavefront OBJ, parsed by tinyobjloader's callback interface, with Mitsuba 3's conventions: all
 // groups make one mesh, vertices are the distinct (position, uv, normal) triples in order of first
-// use, polygons become fans, v is flipped by default, materials are ignored.
+// use, polygons become fans, v is flipped by default. Which material a triangle uses is told by
+// readObjWithMaterials(); readObj() ignores it, as Mitsuba does.
 //
 // tinyobjloader accepts anything as a number and knows no line numbers. So it reads through a
 // stream buffer that hands out one line at a time, counts lines and checks each line's syntax
@@ -18,6 +19,7 @@
 
 #include "lobelia/io/file_bytes.h"
 #include "lobelia/io/mesh_checks.h"
+#include "lobelia/io/obj_materials.h"
 
 namespace lobelia::io {
 namespace {
@@ -31,6 +33,13 @@ std::string_view nextWord(std::string_view& line) {
   const std::string_view word = line.substr(begin, end - begin);
   line.remove_prefix(end);
   return word;
+}
+
+std::string trimmed(std::string_view line) {
+  const size_t begin = std::min(line.find_first_not_of(kBlank), line.size());
+  line.remove_prefix(begin);
+  while (!line.empty() && kBlank.find(line.back()) != kBlank.npos) line.remove_suffix(1);
+  return std::string(line);
 }
 
 bool isFiniteNumber(std::string_view word) {
@@ -71,6 +80,10 @@ class LineBuffer : public std::streambuf {
   [[noreturn]] void fail(const std::string& message) const { throw InputError(where_, message); }
   const std::string& unknownStatement() const { return unknown_; }
   const Location& unknownWhere() const { return unknownWhere_; }
+  // Index in materials() that usemtl named for the current line.
+  uint32_t material() const { return material_; }
+  const std::vector<std::string>& materials() const { return materials_; }
+  const std::vector<std::string>& libraries() const { return libraries_; }
 
  protected:
   int_type underflow() override {
@@ -106,10 +119,17 @@ class LineBuffer : public std::streambuf {
     if (keyword == "vn") return checkNumbers(line, keyword, 3, 3);
     if (keyword == "vt") return checkNumbers(line, keyword, 1, 3);
     if (keyword == "f") return checkFace(line);
+    if (keyword == "usemtl") return useMaterial(trimmed(line));
+    if (keyword == "mtllib") libraries_.push_back(trimmed(line));
     static constexpr std::array<std::string_view, 11> kIgnored{
         "g", "o", "s", "usemtl", "mtllib", "l", "p", "vp", "mg", "usemap", "maplib"};
     if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end() && unknown_.empty())
       unknown_ = std::string(keyword.substr(0, 40)), unknownWhere_ = where_;
+  }
+  void useMaterial(const std::string& name) {
+    const auto found = std::find(materials_.begin(), materials_.end(), name);
+    material_ = static_cast<uint32_t>(found - materials_.begin());
+    if (found == materials_.end()) materials_.push_back(name);
   }
   void checkNumbers(std::string_view line, std::string_view keyword, int least, int most) const {
     int count = 0;
@@ -141,6 +161,8 @@ class LineBuffer : public std::streambuf {
   int linesOfNext_ = 0;  // continuation lines of the current statement
   std::string unknown_;
   Location unknownWhere_;
+  uint32_t material_ = ObjMesh::kNoMaterial;
+  std::vector<std::string> materials_, libraries_;
 };
 
 // Collects what tinyobjloader calls back with, as an indexed mesh.
@@ -157,10 +179,14 @@ class Builder {
       const uint32_t v = vertex({resolve(corners[i].vertex_index, positions_.size(), "vertex"),
                                  resolve(corners[i].texcoord_index, uvs_.size(), "uv"),
                                  resolve(corners[i].normal_index, normals_.size(), "normal")});
-      if (i >= 2) mesh_.triangles.push_back({fan[0], fan[1], v});
+      if (i >= 2) {
+        mesh_.triangles.push_back({fan[0], fan[1], v});
+        materials_.push_back(lines_.material());
+      }
       fan[i == 0 ? 0 : 1] = v;
     }
   }
+  std::vector<uint32_t> takeMaterials() { return std::move(materials_); }
   Mesh take() {
     if (!usesNormals_) mesh_.normals.clear();
     if (!usesUvs_) mesh_.uvs.clear();
@@ -210,13 +236,14 @@ class Builder {
   std::vector<Vec2f> uvs_;
   std::vector<uint32_t> first_;  // first vertex of each position
   std::vector<Entry> entries_;
+  std::vector<uint32_t> materials_;  // of each triangle
   Mesh mesh_;
 };
 
 }  // namespace
 
-Mesh readObj(const std::string& file, const MeshOptions& options, const Location& from,
-             std::vector<Finding>& findings) {
+ObjMesh readObjWithMaterials(const std::string& file, const MeshOptions& options,
+                             const Location& from, std::vector<Finding>& findings) {
   LineBuffer lines(readFileBytes(file, "mesh", from), file);
   Builder builder(lines, options.flipTexCoords.value_or(true));
   tinyobj::callback_t callbacks;
@@ -238,7 +265,11 @@ Mesh readObj(const std::string& file, const MeshOptions& options, const Location
   std::string error;
   if (!tinyobj::LoadObjWithCallback(stream, callbacks, &builder, nullptr, nullptr, &error))
     lines.fail(error);
-  Mesh mesh = builder.take();
+  ObjMesh out;
+  out.mesh = builder.take();
+  out.triangleMaterials = builder.takeMaterials();
+  out.materials = lines.materials(), out.libraries = lines.libraries();
+  Mesh& mesh = out.mesh;
   if (!lines.unknownStatement().empty())
     addWarning(findings, lines.unknownWhere(),
                fmt::format("unknown statement '{}' (and perhaps others) ignored",
@@ -246,7 +277,12 @@ Mesh readObj(const std::string& file, const MeshOptions& options, const Location
   if (mesh.triangles.empty())
     throw InputError({file, 0, 0}, "no faces; an OBJ mesh has 'v' and 'f' statements");
   finishMesh(mesh, file, options, findings);
-  return mesh;
+  return out;
+}
+
+Mesh readObj(const std::string& file, const MeshOptions& options, const Location& from,
+             std::vector<Finding>& findings) {
+  return std::move(readObjWithMaterials(file, options, from, findings).mesh);
 }
 
 }  // namespace lobelia::io

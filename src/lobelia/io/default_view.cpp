@@ -1,0 +1,113 @@
+// A view and light for scenes that have none: a camera that frames everything from the front, a
+// little from the right and from above, and the gradient of a photographer's studio.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lobelia/io/scene_io.h"
+
+namespace lobelia::io {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kAzimuth = 30 * kDegree, kElevation = 20 * kDegree;  // of the camera
+constexpr double kFov = 35 * kDegree;
+constexpr double kMargin = 1.06;  // of the film around what is framed
+constexpr int kWidth = 1024, kHeight = 768;
+
+// The nearest distance along the view direction from which all corners of the box are in the film.
+double framingDistance(const Bounds3f& box, const Mat4& camera) {
+  const double tanX = std::tan(kFov / 2) / kMargin, tanY = tanX * kHeight / kWidth;
+  const Mat4 toCamera = *inverse(camera);
+  double distance = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3f p =
+        toCamera.point({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                        corner & 4 ? box.hi.z : box.lo.z});
+    const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);
+    distance = std::max({distance, std::abs(x) / tanX - static_cast<double>(p.z),
+                         std::abs(y) / tanY - static_cast<double>(p.z)});
+  }
+  return distance;
+}
+
+Camera framingCamera(const Scene& scene) {
+  Bounds3f box = bounds(scene);
+  if (box.empty() || !isFinite(box.extent()) || !(box.radius() > 0)) {
+    const Vec3f centre = !box.empty() && isFinite(box.centre()) ? box.centre() : Vec3f();
+    box = Bounds3f();
+    box.add(centre - Vec3f(1.f)), box.add(centre + Vec3f(1.f));
+  }
+  const Vec3f c = box.centre();
+  const Vec3d centre(c.x, c.y, c.z);
+  const Vec3d towards(std::sin(kAzimuth) * std::cos(kElevation), std::sin(kElevation),
+                      std::cos(kAzimuth) * std::cos(kElevation));
+  const double distance = framingDistance(box, *lookAt(centre, centre - towards, {0, 1, 0}));
+  Camera camera;
+  camera.name = "default";
+  camera.toWorld = Transform(*lookAt(centre + towards * distance, centre, {0, 1, 0}));
+  camera.fovX = static_cast<float>(kFov);
+  camera.width = kWidth, camera.height = kHeight;
+  const auto radius = static_cast<double>(box.radius());
+  camera.nearClip = static_cast<float>(distance * 1e-3);
+  camera.farClip = static_cast<float>((distance + radius) * 10);
+  return camera;
+}
+
+// Radiance from a direction in the camera's space, x to the left: white walls that darken towards
+// the floor, a large soft key light from the upper left behind the camera and a weaker one from the
+// right that draws the edge.
+float studioRadiance(Vec3f d) {
+  const float height = 0.5f + 0.5f * d.y;
+  const float walls = lerp(0.12f, 0.75f, height * height * (3 - 2 * height));
+  const auto softLight = [&](Vec3f at, float sharpness, float radiance) {
+    return radiance * std::exp(sharpness * (dot(d, normalize(at)) - 1));
+  };
+  return walls + softLight({0.7f, 0.75f, -0.6f}, 22, 7.f) +
+         softLight({-0.9f, 0.5f, 0.5f}, 16, 2.5f);
+}
+
+// Mitsuba's axes: columns run about y, from -z by +x; the first and the last row are the poles.
+Image studioImage() {
+  Image image;
+  image.name = "studio";
+  image.width = 256, image.height = 128, image.channels = 3;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const float theta = kPi * static_cast<float>(y) / static_cast<float>(image.height - 1);
+      const float phi = kTwoPi * (static_cast<float>(x) + 0.5f) / static_cast<float>(image.width);
+      const Vec3f d{std::sin(phi) * std::sin(theta), std::cos(theta),
+                    -std::cos(phi) * std::sin(theta)};
+      const float value = studioRadiance(d);
+      image.pixels.insert(image.pixels.end(), {value, value, value});
+    }
+  return image;
+}
+
+}  // namespace
+
+void addDefaultView(Scene& scene) {
+  const Location where{scene.file, 0, 0};
+  if (scene.cameras.empty()) {
+    scene.cameras.push_back(framingCamera(scene));
+    scene.findings.push_back(
+        {Severity::info, where, "there is no camera; one that frames everything is added"});
+  }
+  if (scene.emitters.empty()) {
+    scene.images.push_back(studioImage());
+    Emitter studio;
+    studio.type = EmitterType::environment;
+    studio.name = "studio";
+    studio.image = {static_cast<uint32_t>(scene.images.size() - 1)};
+    // Turned with the camera about the vertical.
+    const Vec3f forward = scene.cameras.front().toWorld.vector({0, 0, 1});
+    const double angle = std::atan2(static_cast<double>(forward.x), static_cast<double>(forward.z));
+    studio.toWorld = Transform(rotation({0, 1, 0}, angle / kDegree));
+    scene.emitters.push_back(studio);
+    scene.findings.push_back({Severity::info, where,
+                              "nothing shines; a neutral studio environment is added "
+                              "(--environment FILE lights the scene with another)"});
+  }
+}
+
+}  // namespace lobelia::io

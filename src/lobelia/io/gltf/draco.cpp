@@ -1,0 +1,87 @@
+// libdraco decodes. Each attribute must have the count and the number of components that its
+// accessor states, and is normalised as the accessor says.
+#include "lobelia/io/gltf/draco.h"
+
+#include <draco/compression/decode.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace lobelia::io::gltf {
+namespace {
+
+// What the largest stored integer stands for in a normalised attribute.
+float normalizedScale(draco::DataType type) {
+  switch (type) {
+    case draco::DT_INT8:
+      return 1 / 127.f;
+    case draco::DT_UINT8:
+      return 1 / 255.f;
+    case draco::DT_INT16:
+      return 1 / 32767.f;
+    case draco::DT_UINT16:
+      return 1 / 65535.f;
+    default:
+      return 1;
+  }
+}
+
+FloatArray readAttribute(const draco::PointAttribute& attribute, size_t pointCount,
+                         const Json& accessor, const Json& where) {
+  FloatArray out;
+  out.count = pointCount, out.components = componentCount(accessor);
+  if (accessor["count"].count() != pointCount ||
+      out.components != static_cast<size_t>(attribute.num_components()))
+    where.fail(
+        fmt::format("the compressed data hold {} vertices of {} components; {} states {} "
+                    "of {}",
+                    pointCount, attribute.num_components(), accessor.path(),
+                    accessor["count"].count(), out.components));
+  const bool scales = accessor["normalized"].boolean(false) && !attribute.normalized();
+  const float scale = scales ? normalizedScale(attribute.data_type()) : 1;
+  out.values.resize(pointCount * out.components);
+  for (size_t i = 0; i < pointCount; ++i) {
+    const draco::PointIndex point(static_cast<uint32_t>(i));
+    float* const value = &out.values[i * out.components];
+    if (!attribute.ConvertValue<float>(attribute.mapped_index(point),
+                                       static_cast<int8_t>(out.components), value))
+      where.fail(fmt::format("vertex {} cannot be read from the compressed data", i));
+    for (size_t c = 0; c < out.components; ++c) {
+      value[c] = scales ? std::max(value[c] * scale, -1.f) : value[c];
+      if (!std::isfinite(value[c])) where.fail(fmt::format("vertex {} is not finite", i));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<DracoPrimitive> decodeDraco(Document& document, const Json& primitive) {
+  const Json extension = primitive.extension("KHR_draco_mesh_compression");
+  if (!extension.exists()) return {};
+  const Bytes bytes = document.view(extension["bufferView"]).bytes;
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  draco::Decoder decoder;
+  draco::StatusOr<std::unique_ptr<draco::Mesh>> result = decoder.DecodeMeshFromBuffer(&buffer);
+  if (!result.ok())
+    extension.fail(
+        fmt::format("the Draco data are damaged: {}", result.status().error_msg_string()));
+  const draco::Mesh& mesh = *result.value();
+  DracoPrimitive out;
+  for (uint32_t f = 0; f < mesh.num_faces(); ++f)
+    for (const draco::PointIndex& i : mesh.face(draco::FaceIndex(f)))
+      out.indices.push_back(i.value());
+  for (const std::string& name : extension["attributes"].members()) {
+    const Json where = extension["attributes"][name];
+    const Json accessor = document.item("accessors", primitive["attributes"][name]);
+    const uint64_t id = where.count();
+    const draco::PointAttribute* const attribute =
+        id <= 0xffffffffu ? mesh.GetAttributeByUniqueId(static_cast<uint32_t>(id)) : nullptr;
+    if (!attribute) where.fail(fmt::format("the compressed data have no attribute {}", id));
+    out.attributes[name] = readAttribute(*attribute, mesh.num_points(), accessor, where);
+  }
+  return out;
+}
+
+}  // namespace lobelia::io::gltf
