@@ -113,6 +113,15 @@ TEST(MitsubaEmitter, PhotometricFilesAreGoniometric) {
                        "bad.ies:"));
 }
 
+TEST(MitsubaEmitter, EmittersOnNullMaterialsShine) {
+  const Scene scene = readModern(
+      "<shape type=\"sphere\"><bsdf type=\"null\"/><emitter type=\"area\"/></shape>");
+  EXPECT_TRUE(contains(onlyFinding(scene), "black"));
+  EXPECT_EQ(scene[scene.instances[0].material].type, MaterialType::diffuse);
+  for (const Finding& finding : validate(scene))
+    EXPECT_FALSE(contains(finding.message, "null")) << finding.message;
+}
+
 TEST(MitsubaEmitter, GroupsOfAllKinds) {
   const std::string group = "<string name=\"group\" value=\"window\"/>";
   const Scene scene = readModern("<shape type=\"sphere\"><emitter type=\"area\">" + group +

@@ -15,11 +15,12 @@
 // orders of scattering in 24 directions, averaged over the azimuth; the ground reflects diffusely.
 //
 // Deviations from nature: no refraction, no airglow or moon, no polarisation, no limb darkening.
-// Deviations from Mitsuba's sky, which evaluates the fit of Hosek and Wilkie 2012: that fit is to a
-// path tracer's results for a similar atmosphere with other haze, so that the colours agree in kind
-// but not in number: the aureole, which the haze's phase function makes, and the horizon differ by
-// some tens of percent, the irradiance of the ground by about 15 %. This one also goes on when the
-// sun has set, and from one turbidity to the next without steps.
+// Mitsuba's sky evaluates a fit (Hosek and Wilkie 2012) to path traced results for another
+// atmosphere: another phase function of haze, which makes the aureole, and other haze for the same
+// turbidity. Its numbers are not ours; most so near the sun and the horizon. What ours agree with is
+// in tests/io/sky_test.cpp: illuminance of the IESNA's clear day (sun within 10 %, sky within 35 %,
+// it is brighter), luminance of the CIE's clear sky (within a factor 1.6), twilight. This one also
+// goes on when the sun has set.
 #include "lobelia/io/atmosphere.h"
 
 #include "lobelia/base/parallel.h"

@@ -191,6 +191,12 @@ void Reader::surface(Object& object, Instance* out) {
   if (!emitters.empty()) out->emitter = areaEmitter(*emitters[0]);
   if (!bsdfs.empty()) {
     out->material = material(*bsdfs[0]);
+    if (out->emitter.valid() && scene_[out->material].type == MaterialType::null) {
+      findings_.warn(bsdfs[0]->where,
+                     "a shape that emits cannot be see-through; its null material is taken as "
+                     "black");
+      out->material = defaultMaterial("black");
+    }
     return;
   }
   // Without a bsdf an emitter is black, in 0.6 a boundary between media invisible, the rest grey.
