@@ -23,7 +23,7 @@ namespace lobelia::app {
 namespace {
 
 constexpr size_t kReceivers = 15360, kLights = 1024, kPackets = 1 << 15;
-constexpr int kTurns = 5, kSpp = 4;
+constexpr int kTurns = 5, kSpp = 16, kPathWidth = 160;
 
 // Seconds by the clock, and of processor per thread.
 struct Seconds {
@@ -284,11 +284,13 @@ BenchTable pathRates(const std::vector<PathSubject>& subjects, int spp, int turn
                     {"path_mrays_per_second_processor", "by processor time", "{:.2f}"},
                     {"bare_mrays_per_second_processor", "bare, the same rays", "{:.2f}"},
                     {"ratio", "ratio (clock)", "{:.2f}"},
-                    {"ratio_processor", "ratio (processor)", "{:.2f}"}},
+                    {"ratio_processor", "ratio (processor)", "{:.2f}"},
+                    {"packets_mrays_per_second_processor", "bare, in packets", "{:.2f}"},
+                    {"ratio_packets_processor", "ratio (processor)", "{:.2f}"}},
                    {},
                    {"Bare, by processor time: the rays of the same paths, nearest hits and shadow "
-                    "rays, one by one by "
-                    "Embree alone."}};
+                    "rays, one by one by Embree alone; and by Embree alone in the packets that the "
+                    "path tracer forms of those that leave or light what the eye sees."}};
   for (size_t i = 0; i < subjects.size() && !context.cancelled(); ++i) {
     const RateScene& scene = *subjects[i].scene;
     const BareRays bare(scene.scene(), context);
@@ -297,14 +299,14 @@ BenchTable pathRates(const std::vector<PathSubject>& subjects, int spp, int turn
     settings.maxDepth = scene.maxDepth();
     Camera camera = scene.camera();
     if (options.size.empty()) {  // recorded rays fill memory
-      camera.height = std::max(1, 320 * camera.height / camera.width);
-      camera.width = 320;
+      camera.height = std::max(1, kPathWidth * camera.height / camera.width);
+      camera.width = kPathWidth;
     }
     camera.cropX0 = camera.cropY0 = 0, camera.cropX1 = camera.width, camera.cropY1 = camera.height;
     const auto tiles = recordPathRays(scene.tracer(), scene.emitters(), camera, settings, 0);
     double rays = 0;
-    for (const auto& tile : tiles) rays += static_cast<double>(tile.size());
-    Turns path, same;
+    for (const TracedRays& tile : tiles) rays += static_cast<double>(tile.rays.size());
+    Turns path, same, packets;
     for (int turn = 0; turn < turns && !context.cancelled(); ++turn) {
       context.progress(fmt::format("{}path tracer", kBenchStage),
                        (static_cast<double>(i) + static_cast<double>(turn) / turns) /
@@ -315,21 +317,28 @@ BenchTable pathRates(const std::vector<PathSubject>& subjects, int spp, int turn
         return static_cast<double>(context.statistics.count("path_rays") +
                                    context.statistics.count("shadow_rays"));
       };
-      Measured p, b;
+      Measured p;
       const double before = counted();
       p.seconds = timed(
           [&] { renderPath(scene.tracer(), scene.emitters(), camera, settings, film, context); });
       p.rays = counted() - before;
-      std::atomic<uint64_t> hits{0};
-      b.seconds = timed(
-          [&] { parallelFor(tiles.size(), 1, [&](size_t t) { hits += bare.hits(tiles[t]); }); });
-      b.rays = rays;
-      path.add(p), same.add(b);
+      const auto bareRate = [&](const auto& hitsOf) {
+        Measured m;
+        std::atomic<uint64_t> hits{0};
+        m.seconds =
+            timed([&] { parallelFor(tiles.size(), 1, [&](size_t t) { hits += hitsOf(tiles[t]); }); });
+        m.rays = rays;
+        return m;
+      };
+      path.add(p);
+      same.add(bareRate([&](const TracedRays& tile) { return bare.hits(tile.rays); }));
+      packets.add(bareRate([&](const TracedRays& tile) { return bare.hits(tile); }));
     }
     if (context.cancelled()) break;
     table.rows.push_back({subjects[i].name, median(path.clock), median(path.processor),
                           median(same.processor), medianRatio(path.clock, same.clock),
-                          medianRatio(path.processor, same.processor)});
+                          medianRatio(path.processor, same.processor), median(packets.processor),
+                          medianRatio(path.processor, packets.processor)});
   }
   return table;
 }

@@ -25,18 +25,39 @@ uint32_t morton(Vec3f unit) {
 // Answers as Tracer does and keeps what it was asked.
 struct Recorder {
   const Tracer& tracer;
-  mutable std::vector<TracedRay> rays;
+  mutable TracedRays asked;
+
   std::optional<Hit> intersect(const Ray& ray) const {
-    rays.push_back({ray, false});
+    record(ray, false);
     return tracer.intersect(ray);
   }
   bool occluded(const Ray& ray) const {
-    rays.push_back({ray, true});
+    record(ray, true);
     return tracer.occluded(ray);
   }
-  bool visible(Vec3f a, Vec3f b) const {
-    rays.push_back({{a, b - a, 0, kShadowEnd}, true});
-    return tracer.visible(a, b);
+  void intersect(ShadowPacket& packet, bool coherent,
+                 std::span<std::optional<Hit>, kLanes> hits) const {
+    record(packet, false);
+    tracer.intersect(packet, coherent, hits);
+  }
+  uint32_t visible(ShadowPacket& packet, bool coherent) const {
+    record(packet, true);
+    return tracer.visible(packet, coherent);
+  }
+
+ private:
+  void record(const Ray& ray, bool shadow) const {
+    asked.queries.push_back({static_cast<uint32_t>(asked.rays.size()), false, shadow});
+    asked.rays.push_back({ray, shadow});
+  }
+  void record(const ShadowPacket& p, bool shadow) const {
+    asked.queries.push_back({static_cast<uint32_t>(asked.packets.size()), true, shadow});
+    asked.packets.push_back(p);
+    for (size_t i = 0; i < kLanes; ++i) {
+      if (p.active[i] == 0) continue;
+      const Vec3f o{p.ox[i], p.oy[i], p.oz[i]}, d{p.dx[i], p.dy[i], p.dz[i]};
+      asked.rays.push_back({{o, d, p.tMin[i], p.tMax[i]}, shadow});
+    }
   }
 };
 
@@ -127,14 +148,13 @@ Packets tileToLights(std::span<const ReceiverPoint> tile, std::span<const PointN
   return packets;
 }
 
-std::vector<std::vector<TracedRay>> recordPathRays(const Tracer& tracer,
-                                                   const EmitterSampler& emitters,
-                                                   const Camera& camera,
-                                                   const PathSettings& settings, uint64_t seed) {
+std::vector<TracedRays> recordPathRays(const Tracer& tracer, const EmitterSampler& emitters,
+                                       const Camera& camera, const PathSettings& settings,
+                                       uint64_t seed) {
   constexpr int kTile = 16;
-  constexpr size_t kSideBySide = 32;
+  constexpr size_t kSideBySide = 64;
   const int across = (camera.width + kTile - 1) / kTile, down = (camera.height + kTile - 1) / kTile;
-  std::vector<std::vector<TracedRay>> tiles(static_cast<size_t>(across * down));
+  std::vector<TracedRays> tiles(static_cast<size_t>(across * down));
   parallelFor(tiles.size(), 1, [&](size_t t) {
     const Recorder recorder{tracer, {}};
     const PathWalk<Recorder> walk(recorder, emitters, settings);
@@ -143,13 +163,13 @@ std::vector<std::vector<TracedRay>> recordPathRays(const Tracer& tracer,
     const int x0 = static_cast<int>(t) % across * kTile, y0 = static_cast<int>(t) / across * kTile;
     for (int y = y0; y < std::min(y0 + kTile, camera.height); ++y) {
       for (int x = x0; x < std::min(x0 + kTile, camera.width); ++x) {
+        const uint32_t pixel = static_cast<uint32_t>(y * camera.width + x);
         for (int s = 0; s < settings.spp; ++s) {
-          PathRandom random(seed, static_cast<uint64_t>(y * camera.width + x),
-                            static_cast<uint32_t>(s));
+          PathRandom random(seed, pixel, static_cast<uint32_t>(s));
           const Vec2f u = random.next2D();
           const Vec2f film{static_cast<float>(x) + u.x, static_cast<float>(y) + u.y};
           const Ray ray = generateRay(camera, film, random.next2D());
-          paths.emplace_back(ray, random);
+          paths.emplace_back(ray, random, pixel);
         }
         if (paths.size() < kSideBySide) continue;
         walk.trace(paths, counts);
@@ -157,7 +177,7 @@ std::vector<std::vector<TracedRay>> recordPathRays(const Tracer& tracer,
       }
     }
     walk.trace(paths, counts);
-    tiles[t] = std::move(recorder.rays);
+    tiles[t] = std::move(recorder.asked);
   });
   return tiles;
 }

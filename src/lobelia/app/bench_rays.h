@@ -28,9 +28,8 @@ Packets tileToLights(std::span<const ReceiverPoint> tile, std::span<const PointN
 
 // The rays of path tracing width x height pixels of a camera, tile by tile in the order in which
 // renderPath() traces them.
-std::vector<std::vector<TracedRay>> recordPathRays(const Tracer& tracer,
-                                                   const EmitterSampler& emitters,
-                                                   const Camera& camera,
-                                                   const PathSettings& settings, uint64_t seed);
+std::vector<TracedRays> recordPathRays(const Tracer& tracer, const EmitterSampler& emitters,
+                                       const Camera& camera, const PathSettings& settings,
+                                       uint64_t seed);
 
 }  // namespace lobelia::app

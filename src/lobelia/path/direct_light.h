@@ -27,28 +27,26 @@ inline LightQuery lightQuery(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wo)
   return {at.p, at.ng, at.error, lightSide(bsdf, wo)};
 }
 
-// Is the emitter sample's way from q free?
-template <class Rays>
-bool unoccluded(const Rays& tracer, const LightQuery& q, const EmitterDirection& light) {
-  const Vec3f origin = offsetOrigin(q.p, q.ng, q.error, light.wi);
-  if (light.distance < 1e38f) return tracer.visible(origin, light.target);
+// The ray that nothing may block for the emitter sample's light to arrive at q.
+inline Ray shadowRay(const LightQuery& q, const EmitterDirection& light) {
   Ray ray;
-  ray.o = origin;
+  ray.o = offsetOrigin(q.p, q.ng, q.error, light.wi);
   ray.d = light.wi;
-  return !tracer.occluded(ray);
+  if (light.distance < 1e38f) ray.d = light.target - ray.o, ray.tMax = kShadowEnd;
+  return ray;
 }
 
-// Light that emitters send to q, times f |cos| of the lobes in `lobes`: the mean of `count` emitter
-// samples, stratified over the choice of the emitter. `sampled`: the lobes among which the one
-// accompanying BSDF sample is drawn (MIS); pass withBsdf = false when there is none. u: three
-// uniform numbers. Counts the shadow rays.
-template <class Rays>
-Rgb sampleDirectLight(const Rays& tracer, const EmitterSampler& emitters, const LightQuery& q,
-                      const Bsdf& bsdf, Vec3f wo, LobeSet lobes, LobeSet sampled, bool withBsdf,
-                      Vec3f u, uint64_t* shadowRays, int count = 1) {
+// Light that emitters send to q, times f |cos| of the lobes in `lobes`: `count` emitter samples
+// whose mean it is, stratified over the choice of the emitter. `sampled`: the lobes among which the
+// one accompanying BSDF sample is drawn (MIS); pass withBsdf = false when there is none. u: three
+// uniform numbers. ask(i, ray, value): the i-th sample is worth `value`, a share of the mean, where
+// nothing blocks the ray; samples that are worth nothing are left out.
+template <class Ask>
+void sampleDirectLight(const EmitterSampler& emitters, const LightQuery& q, const Bsdf& bsdf,
+                       Vec3f wo, LobeSet lobes, LobeSet sampled, bool withBsdf, Vec3f u, int count,
+                       const Ask& ask) {
   const float n = static_cast<float>(count), step = 1 / n;
   const auto fraction = [](float x) { return x - static_cast<float>(static_cast<int>(x)); };
-  Rgb sum{};
   for (int i = 0; i < count; ++i) {
     // Places on the emitter: the plastic number's lattice (Roberts 2018), shifted by u.
     const float k = static_cast<float>(i);
@@ -61,10 +59,22 @@ Rgb sampleDirectLight(const Rays& tracer, const EmitterSampler& emitters, const 
     if (!light->delta && withBsdf) {
       value *= powerHeuristic(n * light->pdf, pdf(bsdf, wo, light->wi, sampled));
     }
-    ++*shadowRays;
-    if (unoccluded(tracer, q, *light)) sum += value;
+    ask(i, shadowRay(q, *light), value * step);
   }
-  return sum * step;
+}
+
+// The sum for one emitter sample, its shadow ray traced at once and counted.
+template <class Rays>
+Rgb sampleDirectLight(const Rays& tracer, const EmitterSampler& emitters, const LightQuery& q,
+                      const Bsdf& bsdf, Vec3f wo, LobeSet lobes, LobeSet sampled, bool withBsdf,
+                      Vec3f u, uint64_t* shadowRays) {
+  Rgb sum{};
+  sampleDirectLight(emitters, q, bsdf, wo, lobes, sampled, withBsdf, u, 1,
+                    [&](int, const Ray& ray, Rgb value) {
+                      ++*shadowRays;
+                      if (!tracer.occluded(ray)) sum += value;
+                    });
+  return sum;
 }
 
 // MIS weight of emission met by a BSDF sample of density bsdfPdf drawn at q, where `count` emitter

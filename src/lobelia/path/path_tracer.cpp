@@ -13,8 +13,8 @@ namespace lobelia {
 namespace {
 
 constexpr int kTile = 16;
-constexpr int kSamplesPerPass = 8;
-constexpr size_t kBatch = 32;                       // paths that go side by side
+constexpr int kSamplesPerPass = 16;
+constexpr size_t kBatch = 64;                       // paths that go side by side
 constexpr int64_t kProgressInterval = 200'000'000;  // nanoseconds
 
 struct PixelSum {
@@ -70,7 +70,7 @@ class PathPasses {
   void run() {
     // The first passes are short: a limited render should have every pixel soon.
     for (int first = 0, size = 1; first < settings_.spp && !stopped(first > 0); first += size) {
-      if (first > 1) size = std::min(2 * size, kSamplesPerPass);
+      if (first > 0) size = std::min(3 * first, kSamplesPerPass);
       const int last = std::min(first + size, settings_.spp);
       std::atomic<size_t> done{0};
       parallelFor(tiles_.size(), 1, [&](size_t t) {
@@ -131,8 +131,8 @@ class PathPasses {
     for (const uint32_t pixel : tile) {
       for (int sample = first; sample < last; ++sample) {
         start(pixel, sample, paths, places);
-        if (paths.size() == kBatch) flush();
       }
+      if (paths.size() + static_cast<size_t>(last - first) > kBatch) flush();
     }
     flush();
     context_.statistics.addCount("path_rays", counts.pathRays);
@@ -153,7 +153,7 @@ class PathPasses {
     const Vec2f position{static_cast<float>(x) + 0.5f + offset.x,
                          static_cast<float>(y) + 0.5f + offset.y};
     const Ray ray = generateRay(camera_, position, random.next2D());
-    paths.emplace_back(ray, random);
+    paths.emplace_back(ray, random, pixel);
     places.push_back({pixel, weight});
   }
 

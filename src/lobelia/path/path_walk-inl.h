@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lobelia/path/path_walk.h"
+#include "lobelia/trace/flush_denormals.h"
 
 namespace lobelia {
 
@@ -30,32 +31,130 @@ void PathWalk<Rays>::prefetch(const Hit& hit) const {
 
 template <class Rays>
 void PathWalk<Rays>::trace(std::span<PathState> paths, PathCounts& counts) const {
-  constexpr size_t kMost = 64;
   if (settings_.maxDepth == 0) return;
-  for (; paths.size() > kMost; paths = paths.subspan(kMost)) trace(paths.first(kMost), counts);
+  Shadows shadows;
+  while (!paths.empty()) {
+    // Whole pixels, as many as there is room for.
+    size_t count = std::min(kMost, paths.size());
+    if (count < paths.size()) {
+      size_t whole = count;
+      while (whole > 0 && paths[whole].pixel == paths[whole - 1].pixel) --whole;
+      if (whole > 0) count = whole;
+    }
+    traceSome(paths.first(count), shadows, counts);
+    paths = paths.subspan(count);
+  }
+}
+
+template <class Rays>
+void PathWalk<Rays>::traceSome(std::span<PathState> paths, Shadows& shadows,
+                               PathCounts& counts) const {
   PathState* active[kMost];
   size_t count = 0;
   for (PathState& path : paths) active[count++] = &path;
   const Scene& scene = emitters_.scene();
-  while (count > 0) {
+  for (bool first = true; count > 0; first = false) {
     counts.pathRays += count;
-    for (size_t i = 0; i < count; ++i) {
-      PathState& path = *active[i];
-      path.hit = tracer_.intersect(path.ray);
-      if (!path.hit) continue;
-      const Instance& instance = scene.instances[path.hit->instance];
-      prefetchRead(&scene[instance.mesh].triangles[path.hit->triangle]);
+    if (first) intersectFirst(paths);
+    {
+      const FlushDenormals flush;
+      for (size_t i = 0; i < count; ++i) {
+        PathState& path = *active[i];
+        if (!first) path.hit = tracer_.intersect(path.ray);
+        if (!path.hit) continue;
+        const Instance& instance = scene.instances[path.hit->instance];
+        prefetchRead(&scene[instance.mesh].triangles[path.hit->triangle]);
+      }
     }
     for (size_t i = 0; i < count; ++i) {
       if (active[i]->hit) prefetch(*active[i]->hit);
     }
     size_t left = 0;
+    shadows.clear();
     for (size_t i = 0; i < count; ++i) {
-      if (advance(*active[i], counts)) active[left++] = active[i];
+      if (advance(*active[i], shadows)) active[left++] = active[i];
     }
+    traceShadows(shadows, counts);
     count = left;
   }
   for (PathState& path : paths) finish(path.result, counts);
+}
+
+// Where the run of equal pixels that starts at `first` ends.
+template <class Range, class PixelOf>
+size_t endOfPixel(const Range& range, size_t first, size_t most, const PixelOf& pixelOf) {
+  size_t end = first + 1;
+  while (end < range.size() && end - first < most && pixelOf(range[end]) == pixelOf(range[first])) {
+    ++end;
+  }
+  return end;
+}
+
+template <class Rays>
+void PathWalk<Rays>::intersectFirst(std::span<PathState> paths) const {
+  constexpr size_t kLanes = ShadowPacket::kSize;
+  for (size_t i = 0, end; i < paths.size(); i = end) {
+    end = endOfPixel(paths, i, kLanes, [](const PathState& path) { return path.pixel; });
+    if (end - i == 1) {
+      paths[i].hit = tracer_.intersect(paths[i].ray);
+      continue;
+    }
+    ShadowPacket packet{};
+    for (size_t k = i; k < end; ++k) packet.set(static_cast<int>(k - i), paths[k].ray);
+    std::optional<Hit> hits[kLanes];
+    tracer_.intersect(packet, true, hits);
+    for (size_t k = i; k < end; ++k) paths[k].hit = hits[k - i];
+  }
+}
+
+template <class Rays>
+void PathWalk<Rays>::traceShadows(const Shadows& shadows, PathCounts& counts) const {
+  counts.shadowRays += shadows.size();
+  const FlushDenormals flush;
+  std::vector<const PathShadow*> seen;
+  for (const PathShadow& shadow : shadows) {
+    if (shadow.seen) {
+      seen.push_back(&shadow);
+    } else if (!tracer_.occluded(shadow.ray)) {
+      shadow.add();
+    }
+  }
+  for (size_t i = 0, end; i < seen.size(); i = end) {
+    end = endOfPixel(seen, i, seen.size(), [](const PathShadow* s) { return s->path->pixel; });
+    tracePixel(std::span(seen).subspan(i, end - i));
+  }
+}
+
+// The first emitter samples of all points together, then their second ones ...: they are stratified
+// over the emitters.
+template <class Rays>
+void PathWalk<Rays>::tracePixel(std::span<const PathShadow* const> shadows) const {
+  constexpr size_t kLanes = ShadowPacket::kSize;
+  const PathShadow* lanes[kLanes];
+  size_t filled = 0, done = 0;
+  for (int sample = 0; done < shadows.size(); ++sample) {
+    for (const PathShadow* shadow : shadows) {
+      if (shadow->sample != sample) continue;
+      lanes[filled++] = shadow, ++done;
+      if (filled < kLanes && done < shadows.size()) continue;
+      tracePacket(std::span(lanes, filled));
+      filled = 0;
+    }
+  }
+}
+
+template <class Rays>
+void PathWalk<Rays>::tracePacket(std::span<const PathShadow* const> shadows) const {
+  if (shadows.size() == 1) {
+    if (!tracer_.occluded(shadows[0]->ray)) shadows[0]->add();
+    return;
+  }
+  ShadowPacket packet{};
+  for (size_t i = 0; i < shadows.size(); ++i) packet.set(static_cast<int>(i), shadows[i]->ray);
+  const uint32_t visible = tracer_.visible(packet, true);
+  for (size_t i = 0; i < shadows.size(); ++i) {
+    if ((visible >> i & 1) != 0) shadows[i]->add();
+  }
 }
 
 template <class Rays>
@@ -68,7 +167,7 @@ void PathWalk<Rays>::meet(PathState& path, Rgb radiance, const SurfacePoint* hit
 }
 
 template <class Rays>
-bool PathWalk<Rays>::advance(PathState& path, PathCounts& counts) const {
+bool PathWalk<Rays>::advance(PathState& path, Shadows& shadows) const {
   if (!path.hit) {
     meet(path, emitters_.escaped(path.ray.d), nullptr);
     return false;
@@ -100,15 +199,7 @@ bool PathWalk<Rays>::advance(PathState& path, PathCounts& counts) const {
   path.samplesFrom = path.chain != Rgb{} ? std::max(settings_.directSamples, 1) : 1;
 
   const bool wanted = settings_.component != Component::indirect || path.indirect != Rgb{};
-  if (wanted && !onlyDelta(bsdf)) {
-    const float select = path.random.next1D();
-    const Vec2f place = path.random.next2D();
-    const Rgb light =
-        sampleDirectLight(tracer_, emitters_, path.from, bsdf, wo, LobeSet::all, LobeSet::all, true,
-                          {select, place.x, place.y}, &counts.shadowRays, path.samplesFrom);
-    path.result.direct += path.chain * light;
-    path.result.indirect += path.indirect * light;
-  }
+  if (wanted && !onlyDelta(bsdf)) light(path, bsdf, wo, shadows);
 
   const float uLobe = path.random.next1D();
   const auto s = sample(bsdf, wo, uLobe, path.random.next2D());
@@ -126,6 +217,18 @@ bool PathWalk<Rays>::advance(PathState& path, PathCounts& counts) const {
   path.ray.d = s->wi;
   ++path.depth;
   return true;
+}
+
+template <class Rays>
+void PathWalk<Rays>::light(PathState& path, const Bsdf& bsdf, Vec3f wo, Shadows& shadows) const {
+  const float select = path.random.next1D();
+  const Vec2f place = path.random.next2D();
+  sampleDirectLight(emitters_, path.from, bsdf, wo, LobeSet::all, LobeSet::all, true,
+                    {select, place.x, place.y}, path.samplesFrom,
+                    [&](int sample, const Ray& ray, Rgb value) {
+                      shadows.push_back({ray, &path, sample, path.chain != Rgb{},
+                                         path.chain * value, path.indirect * value});
+                    });
 }
 
 template <class Rays>

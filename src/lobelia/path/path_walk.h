@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "lobelia/base/random.h"
 #include "lobelia/path/direct_light.h"
@@ -53,8 +54,10 @@ struct PathResult {
 
 // A path on its way: the ray to be traced next and all that goes with it.
 struct PathState {
-  PathState(const Ray& first, const PathRandom& numbers) : ray(first), random(numbers) {}
+  PathState(const Ray& first, const PathRandom& numbers, uint32_t where)
+      : ray(first), pixel(where), random(numbers) {}
   Ray ray;
+  uint32_t pixel;
   PathRandom random;
   PathResult result;
   Rgb chain{1.f}, indirect{};         // throughput up to the ray's start
@@ -67,6 +70,16 @@ struct PathState {
   std::optional<Hit> hit;
 };
 
+// A shadow ray that waits for being traced, and what it is worth when nothing blocks it.
+struct PathShadow {
+  Ray ray;
+  PathState* path;
+  int sample;  // which of the vertex' emitter samples
+  bool seen;   // by the eye, directly or by sharp lobes
+  Rgb direct, indirect;
+  void add() const { path->result.direct += direct, path->result.indirect += indirect; }
+};
+
 // Rays: Tracer, or what answers the same queries (benchmarks record them). Members are defined in
 // path_walk-inl.h and compiled for Tracer in path_walk.cpp.
 template <class Rays>
@@ -75,12 +88,24 @@ class PathWalk {
   PathWalk(const Rays& tracer, const EmitterSampler& emitters, const PathSettings& settings)
       : tracer_(tracer), emitters_(emitters), settings_(settings) {}
   // Follows the paths to their ends, side by side: while some wait for the memory of the triangle
-  // that they hit, others are traced and shaded. Each path is a function of its state alone.
+  // that they hit, others are traced and shaded. First rays, and shadow rays of points that the eye
+  // sees directly or by sharp lobes, go in packets. Embree's answers may depend, in their last
+  // bits, on the company that a ray has; packets are therefore never shared by pixels: paths of a
+  // pixel, which must be neighbours in `paths`, get the same result whatever the others are.
   void trace(std::span<PathState> paths, PathCounts& counts) const;
 
  private:
+  static constexpr size_t kMost = 64;  // paths side by side
+  using Shadows = std::vector<PathShadow>;
+
+  void traceSome(std::span<PathState> paths, Shadows& shadows, PathCounts& counts) const;
+  void intersectFirst(std::span<PathState> paths) const;
   void prefetch(const Hit& hit) const;
-  bool advance(PathState& path, PathCounts& counts) const;  // false: the path has ended
+  bool advance(PathState& path, Shadows& shadows) const;  // false: the path has ended
+  void light(PathState& path, const Bsdf& bsdf, Vec3f wo, Shadows& shadows) const;
+  void traceShadows(const Shadows& shadows, PathCounts& counts) const;
+  void tracePixel(std::span<const PathShadow* const> shadows) const;
+  void tracePacket(std::span<const PathShadow* const> shadows) const;
   void meet(PathState& path, Rgb radiance, const SurfacePoint* hit) const;
   void finish(PathResult& result, PathCounts& counts) const;
 

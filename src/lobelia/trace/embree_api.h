@@ -60,6 +60,20 @@ void occludedPacket(const int* valid, RTCScene scene, QueryContext& context, boo
     rtcOccluded8(valid, scene, &rays, &arguments);
   }
 }
+template <class Rays>
+void intersectPacket(const int* valid, RTCScene scene, QueryContext& context, bool coherent,
+                     Rays& rays) {
+  rtcInitRayQueryContext(&context.base);
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = queryFlags(coherent);
+  arguments.context = &context.base;
+  if constexpr (std::is_same_v<Rays, RTCRayHit16>) {
+    rtcIntersect16(valid, scene, &rays, &arguments);
+  } else {
+    rtcIntersect8(valid, scene, &rays, &arguments);
+  }
+}
 #else
 inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
   rtcInitIntersectContext(&context.base);
@@ -78,6 +92,17 @@ void occludedPacket(const int* valid, RTCScene scene, QueryContext& context, boo
     rtcOccluded16(valid, scene, &context.base, &rays);
   } else {
     rtcOccluded8(valid, scene, &context.base, &rays);
+  }
+}
+template <class Rays>
+void intersectPacket(const int* valid, RTCScene scene, QueryContext& context, bool coherent,
+                     Rays& rays) {
+  rtcInitIntersectContext(&context.base);
+  if (coherent) context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if constexpr (std::is_same_v<Rays, RTCRayHit16>) {
+    rtcIntersect16(valid, scene, &context.base, &rays);
+  } else {
+    rtcIntersect8(valid, scene, &context.base, &rays);
   }
 }
 #endif

@@ -1,6 +1,7 @@
 // Embree asks for denormal numbers to be flushed to zero. The mode is set around queries and
 // restored after them: results must not depend on which thread ran what, and the mode must not leak
-// into the rest of the program. Private to the room.
+// into the rest of the program. Queries do this themselves; callers with many of them in a row
+// spare the changes by one of these around all.
 #pragma once
 
 #if defined(__SSE__)

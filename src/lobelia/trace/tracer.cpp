@@ -5,6 +5,7 @@
 // shows up in the values that the stages check and count, instead of becoming shadow.
 #include "lobelia/trace/tracer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -76,12 +77,10 @@ uint32_t signBits(const float* v) {
   return bits;
 }
 
-// Traces the lanes from `first` on, as many as Rays has; returns which are blocked.
+// Copies the lanes from `first` on, as many as Rays has.
 template <class Rays>
-uint32_t blockedLanes(const embree::Accel& accel, const ShadowPacket& packet, const int32_t* active,
-                      int first, bool coherent) {
+void setRays(const ShadowPacket& packet, int first, Rays& rays) {
   constexpr int n = sizeof(Rays::org_x) / sizeof(float);
-  Rays rays;
   const auto copy = [&](float* to, const float* from) {
     std::memcpy(to, from + first, n * sizeof(float));
   };
@@ -95,11 +94,42 @@ uint32_t blockedLanes(const embree::Accel& accel, const ShadowPacket& packet, co
     rays.id[i] = static_cast<unsigned>(first + i);
     rays.flags[i] = 0;
   }
+}
+
+// Traces the lanes from `first` on; returns which are blocked.
+template <class Rays>
+uint32_t blockedLanes(const embree::Accel& accel, const ShadowPacket& packet, const int32_t* active,
+                      int first, bool coherent) {
+  constexpr int n = sizeof(Rays::org_x) / sizeof(float);
+  Rays rays;
+  setRays(packet, first, rays);
   embree::QueryContext context;
   context.packet = &packet;
   embree::occludedPacket(active + first, accel.top(), context, coherent, rays);
   // Blocked lanes are at minus infinity; no other end is negative (nor NaN: max keeps the 0 then).
   return signBits<n>(rays.tfar) << first;
+}
+
+Hit toHit(float t, float u, float v, uint32_t top, uint32_t geometry, uint32_t triangle) {
+  return {t, u, v, top != RTC_INVALID_GEOMETRY_ID ? top : geometry, triangle};
+}
+
+template <class Rays>
+void intersectLanes(const embree::Accel& accel, const ShadowPacket& packet, const int32_t* active,
+                    int first, bool coherent, std::optional<Hit>* hits) {
+  constexpr int n = sizeof(Rays::hit.u) / sizeof(float);
+  Rays rays;
+  setRays(packet, first, rays.ray);
+  for (int i = 0; i < n; ++i) rays.hit.geomID[i] = rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  embree::QueryContext context;
+  context.packet = &packet;
+  embree::intersectPacket(active + first, accel.top(), context, coherent, rays);
+  const auto& hit = rays.hit;
+  for (int i = 0; i < n; ++i) {
+    if (hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    hits[first + i] =
+        toHit(rays.ray.tfar[i], hit.u[i], hit.v[i], hit.instID[0][i], hit.geomID[i], hit.primID[i]);
+  }
 }
 
 }  // namespace
@@ -129,8 +159,23 @@ std::optional<Hit> Tracer::intersect(const Ray& ray) const {
   embree::intersect1(impl_->accel.top(), context, query);
   const RTCHit& hit = query.hit;
   if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const bool instanced = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-  return Hit{query.ray.tfar, hit.u, hit.v, instanced ? hit.instID[0] : hit.geomID, hit.primID};
+  return toHit(query.ray.tfar, hit.u, hit.v, hit.instID[0], hit.geomID, hit.primID);
+}
+
+void Tracer::intersect(ShadowPacket& packet, bool coherent,
+                       std::span<std::optional<Hit>, ShadowPacket::kSize> hits) const {
+  std::fill(hits.begin(), hits.end(), std::nullopt);
+  const FlushDenormals flush;
+  const embree::Accel& accel = impl_->accel;
+  Lanes valid;
+  const int32_t* lanes = packet.active;
+  if (!allValid(packet)) valid = validLanes(packet), lanes = valid.active;
+  if (!accel.instanced()) {
+    intersectLanes<RTCRayHit16>(accel, packet, lanes, 0, coherent, hits.data());
+  } else {  // as visible()
+    intersectLanes<RTCRayHit8>(accel, packet, lanes, 0, coherent, hits.data());
+    intersectLanes<RTCRayHit8>(accel, packet, lanes, 8, coherent, hits.data());
+  }
 }
 
 bool Tracer::occluded(const Ray& ray) const {

@@ -13,8 +13,8 @@ namespace lobelia {
 // length of the ray, which the offset of the far end from its surface does not know.
 inline constexpr float kShadowEnd = 1 - 0x1p-15f;
 
-// Up to 16 shadow rays as structure of arrays, ready for Embree's packets. Fill lanes [0, 16);
-// active[i] = -1 for lanes to trace, 0 for others. Directions need not be unit.
+// Up to 16 rays as structure of arrays, ready for Embree's packets; shadow rays for the most part.
+// Fill lanes [0, 16); active[i] = -1 for lanes to trace, 0 for others. Directions need not be unit.
 struct alignas(64) ShadowPacket {
   static constexpr int kSize = 16;
   float ox[kSize], oy[kSize], oz[kSize], tMin[kSize];
@@ -25,6 +25,11 @@ struct alignas(64) ShadowPacket {
   void set(int lane, Vec3f a, Vec3f b) {
     ox[lane] = a.x, oy[lane] = a.y, oz[lane] = a.z, tMin[lane] = 0;
     dx[lane] = b.x - a.x, dy[lane] = b.y - a.y, dz[lane] = b.z - a.z, tMax[lane] = kShadowEnd;
+    active[lane] = -1;
+  }
+  void set(int lane, const Ray& ray) {
+    ox[lane] = ray.o.x, oy[lane] = ray.o.y, oz[lane] = ray.o.z, tMin[lane] = ray.tMin;
+    dx[lane] = ray.d.x, dy[lane] = ray.d.y, dz[lane] = ray.d.z, tMax[lane] = ray.tMax;
     active[lane] = -1;
   }
 };
@@ -43,6 +48,10 @@ class Tracer {
   // ray and the triangle: same ray, same answer.
   std::optional<Hit> intersect(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
+  // Nearest hits of the active lanes, empty for the others. Which rays share a packet may change a
+  // hit's last bits.
+  void intersect(ShadowPacket& packet, bool coherent,
+                 std::span<std::optional<Hit>, ShadowPacket::kSize> hits) const;
   // Bit i of the result is set when lane i is active and NOT blocked. coherent: the rays share an
   // end or lie close together (Embree's COHERENT flag; wrong use only costs speed).
   uint32_t visible(ShadowPacket& packet, bool coherent) const;
