@@ -12,7 +12,7 @@ namespace lobelia::builtin {
 namespace {
 
 // So that detail 1 makes the 180,000 triangles of [P000].
-constexpr float kFineness = 0.655f;
+constexpr float kFineness = 0.62f;
 constexpr int kLarge = 1024, kSmall = 512;
 
 Material twoSided(MaterialHandle front) {
@@ -100,7 +100,7 @@ void KitchenKit::addWoodsAndPaints() {
   m.paint = add(diffuse(Rgb(0.72f, 0.68f, 0.58f)), "wall paint");
   m.ceiling = add(diffuse(Rgb(0.82f, 0.81f, 0.78f)), "ceiling");
   m.trim = add(phong(Rgb(0.72f, 0.71f, 0.67f), Rgb(0.06f), 60.f), "white lacquer");
-  m.lacquer = add(phong(Rgb(0.032f, 0.088f, 0.092f), Rgb(0.11f), 130.f), "teal lacquer");
+  m.lacquer = add(phong(Rgb(0.025f, 0.072f, 0.076f), Rgb(0.11f), 130.f), "teal lacquer");
   m.pale = add(phong(Rgb(0.62f, 0.60f, 0.53f), Rgb(0.08f), 100.f), "pale lacquer");
   m.carcass = add(diffuse(Rgb(0.06f)), "carcass");
   m.black = add(diffuse(Rgb(0.03f)), "matt black");

@@ -57,12 +57,12 @@ void addSky(KitchenKit& kit, const Image& image, float scale) {
 void addDaylight(KitchenKit& kit) {
   addSky(kit,
          skyImage({0.16f, 0.32f, 0.70f}, {0.75f, 0.88f, 1.0f}, {1.15f, 1.12f, 1.08f},
-                  {0.10f, 0.16f, 0.05f}),
+                  {0.065f, 0.085f, 0.035f}),
          5);
   Emitter sun;
   sun.type = EmitterType::directional;
-  sun.radiance = Rgb(62.f, 54.f, 42.f);
-  sun.direction = normalize(Vec3f(0.80f, -0.50f, 0.22f));
+  sun.radiance = Rgb(52.f, 44.f, 33.f);
+  sun.direction = normalize(Vec3f(0.86f, -0.41f, 0.27f));
   kit.add(sun, "sun");
 }
 
@@ -188,7 +188,7 @@ void addPendants(KitchenKit& kit) {
     kit.put(bulb, translation({at.x, low + 0.075, at.z}), m.bulb, "bulb", glow);
     kit.put(cord, translation({at.x, low + 0.165, at.z}), m.black, "cord");
     kit.put(rose, translation({at.x, top - 0.018, at.z}), m.copper, "ceiling rose");
-    addPoint(kit, {at.x, low + 0.01, at.z}, kWarm * 0.9f, "pendant");
+    addPoint(kit, {at.x, low + 0.01, at.z}, kWarm * 0.7f, "pendant");
   }
 }
 
