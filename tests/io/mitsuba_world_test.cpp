@@ -254,7 +254,7 @@ TEST(MitsubaEmitter, ProjectorFieldOfView) {
 
 TEST(MitsubaEmitter, UnknownTypesAreErrors) {
   EXPECT_TRUE(contains(refusal("<emitter type=\"spott\"/>"), "did you mean 'spot'?"));
-  EXPECT_TRUE(contains(refusal("<emitter type=\"sunsky\"/>"), "unknown emitter 'sunsky'"));
+  EXPECT_TRUE(contains(refusal("<emitter type=\"sunlight\"/>"), "unknown emitter 'sunlight'"));
 }
 
 TEST(MitsubaSensor, Defaults) {

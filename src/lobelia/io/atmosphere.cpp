@@ -17,10 +17,10 @@
 // Deviations from nature: no refraction, no airglow or moon, no polarisation, no limb darkening.
 // Mitsuba's sky evaluates a fit (Hosek and Wilkie 2012) to path traced results for another
 // atmosphere: another phase function of haze, which makes the aureole, and other haze for the same
-// turbidity. Its numbers are not ours; most so near the sun and the horizon. What ours agree with is
-// in tests/io/sky_test.cpp: illuminance of the IESNA's clear day (sun within 10 %, sky within 35 %,
-// it is brighter), luminance of the CIE's clear sky (within a factor 1.6), twilight. This one also
-// goes on when the sun has set.
+// turbidity. Its numbers are not ours; most so near the sun and the horizon. What ours agree with
+// is in tests/io/sky_test.cpp: illuminance of the IESNA's clear day (sun within 10 %, sky within 35
+// %, it is brighter), luminance of the CIE's clear sky (within a factor 1.6), twilight. This one
+// also goes on when the sun has set.
 #include "lobelia/io/atmosphere.h"
 
 #include "lobelia/base/parallel.h"
@@ -207,39 +207,53 @@ Atmosphere::Columns Atmosphere::integrate(double altitude, double cosine) const 
 
 void Atmosphere::makeTable() {
   table_.resize((kLevels + 1) * kAngles);
+  sunlight_.resize(table_.size());
   parallelFor(kLevels + 1, 1, [&](size_t k) {
-    const double horizon = std::asin(horizonCosine(altitudes_[k]));
+    const double horizon = horizons_[k] = std::asin(horizonCosine(altitudes_[k]));
     for (size_t a = 0; a < kAngles; ++a) {
       const double x = static_cast<double>(a) / (kAngles - 1);
       const double elevation = horizon + (0.5 * kPiD - horizon) * x * x;
-      table_[k * kAngles + a] = integrate(altitudes_[k], std::sin(elevation));
+      const size_t index = k * kAngles + a;
+      table_[index] = integrate(altitudes_[k], std::sin(elevation));
+      for (size_t i = 0; i < kWavelengths; ++i)
+        sunlight_[index][i] = solarSpectrum()[i] * std::exp(-depth(i, table_[index]));
     }
   });
 }
 
-Atmosphere::Columns Atmosphere::towardsSun(double altitude, double cosine, bool* blocked) const {
+// The four entries of the table around a place, with their weights. Angles count from each level's
+// own horizon.
+std::array<Atmosphere::Entry, 4> Atmosphere::entries(double altitude, double cosine) const {
   const double elevation = std::asin(std::clamp(cosine, -1.0, 1.0));
   const double level = kLevels * std::sqrt(std::clamp(altitude / kTop, 0.0, 1.0));
   const size_t k = std::min(static_cast<size_t>(level), kLevels - 1);
   const double f = level - static_cast<double>(k);
-  // Angles count from each level's own horizon.
-  *blocked = cosine < horizonCosine(altitude);
-  if (*blocked) return {};
-  const auto at = [&](size_t row) {
-    const double horizon = std::asin(horizonCosine(altitudes_[row]));
+  std::array<Entry, 4> result;
+  for (size_t row = 0; row < 2; ++row) {
+    const double horizon = horizons_[k + row];
     const double x =
         std::sqrt(std::clamp((elevation - horizon) / (0.5 * kPiD - horizon), 0.0, 1.0)) *
         (kAngles - 1);
     const size_t a = std::min(static_cast<size_t>(x), kAngles - 2);
-    const double g = x - static_cast<double>(a);
-    const Columns& c0 = table_[row * kAngles + a];
-    const Columns& c1 = table_[row * kAngles + a + 1];
-    return Columns{c0.rayleigh + (c1.rayleigh - c0.rayleigh) * g, c0.haze + (c1.haze - c0.haze) * g,
-                   c0.ozone + (c1.ozone - c0.ozone) * g};
-  };
-  const Columns low = at(k), high = at(k + 1);
-  return {low.rayleigh + (high.rayleigh - low.rayleigh) * f, low.haze + (high.haze - low.haze) * f,
-          low.ozone + (high.ozone - low.ozone) * f};
+    const double g = x - static_cast<double>(a), share = row == 0 ? 1 - f : f;
+    const size_t index = (k + row) * kAngles + a;
+    result[2 * row] = {index, share * (1 - g)};
+    result[2 * row + 1] = {index + 1, share * g};
+  }
+  return result;
+}
+
+Atmosphere::Columns Atmosphere::towardsSun(double altitude, double cosine, bool* blocked) const {
+  *blocked = cosine < horizonCosine(altitude);
+  Columns sum;
+  if (*blocked) return sum;
+  for (const Entry& e : entries(altitude, cosine)) {
+    const Columns& c = table_[e.index];
+    sum.rayleigh += e.weight * c.rayleigh;
+    sum.haze += e.weight * c.haze;
+    sum.ozone += e.weight * c.ozone;
+  }
+  return sum;
 }
 
 // Successive orders: each pass scatters the field of the last one and carries the result through
@@ -386,15 +400,17 @@ std::vector<Rgb> Atmosphere::radiance(double cosZenith, std::span<const double> 
     Spectral sum{};
     for (const Step& step : steps) {
       const double cosine = (kEarth * sunCosine_ + step.way * toSun) / (kEarth + step.altitude);
-      bool blocked;
-      const Columns columns = towardsSun(step.altitude, cosine, &blocked);
+      Spectral sun{};
+      if (cosine >= horizonCosine(step.altitude)) {
+        for (const Entry& e : entries(step.altitude, cosine)) {
+          const Spectral& entry = sunlight_[e.index];
+          for (size_t i = 0; i < kWavelengths; ++i) sun[i] += e.weight * entry[i];
+        }
+      }
+      const double air = step.air * airPhase, haze = step.haze * hazeFactor;
       for (size_t i = 0; i < kWavelengths; ++i) {
-        double source = step.multiple[i];
-        if (!blocked)
-          source +=
-              solarSpectrum()[i] * std::exp(-depth(i, columns)) *
-              (rayleigh_[i] * step.air * airPhase + hazeExtinction_[i] * step.haze * hazeFactor);
-        sum[i] += source * step.keptLight[i];
+        const double once = sun[i] * (rayleigh_[i] * air + hazeExtinction_[i] * haze);
+        sum[i] += (step.multiple[i] + once) * step.keptLight[i];
       }
     }
     result.push_back(toRgb(sum));

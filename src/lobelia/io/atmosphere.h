@@ -54,7 +54,13 @@ class Atmosphere {
   // Light that is scattered for the second time or more, per altitude and stream.
   using Field = std::array<std::array<double, kStreams>, kLevels + 1>;
 
+  struct Entry {
+    size_t index;
+    double weight;
+  };
+
   void makeTable();
+  std::array<Entry, 4> entries(double altitude, double cosine) const;
   Columns integrate(double altitude, double cosine) const;
   Columns towardsSun(double altitude, double cosine, bool* blocked) const;
   void solve(size_t wavelength, double albedo);
@@ -67,7 +73,9 @@ class Atmosphere {
   Spectral rayleigh_, hazeExtinction_, ozone_;  // vertical optical depths
   std::array<Vec3d, kWavelengths> toRgb_;
   std::array<double, kLevels + 1> altitudes_;
-  std::vector<Columns> table_;                // by level and angle above the level's horizon
+  std::array<double, kLevels + 1> horizons_;  // angle of the earth's edge, seen from a level
+  std::vector<Columns> table_;      // towards the sun, by level and angle above the level's horizon
+  std::vector<Spectral> sunlight_;  // that arrives on these ways
   std::array<double, kStreams> mu_, weight_;  // of propagation, downwards negative
   std::vector<Field> fields_;                 // radiance of all diffuse light, per wavelength
   Rgb sun_, ground_, sky_, reflected_;
