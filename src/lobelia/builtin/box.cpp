@@ -4,6 +4,8 @@
 //
 // x right, y up, z to the viewer; the room spans [-1.3, 1.3] x [0, 2] x [-1, 1], as wide as
 // the picture.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -127,7 +129,7 @@ class GlossyBox : SceneBuilder {
       const double w = static_cast<double>(kHalfWidth), h = static_cast<double>(kHalfHeight);
       const Vec3d middle = Vec3d(x, h + 0.06, z) + along * w;
       const Mat4 at = translation(middle) * rotation({0, 1, 0}, turn);
-      const std::string panel = "screen, panel " + std::to_string(i + 1);
+      const std::string panel = fmt::format("screen, panel {}", i + 1);
       place(square_, at * scaling({w, h, 1}), flowers, panel);
       place(post, at * translation({-w, 0, 0}), frame, panel + ", left post");
       place(post, at * translation({w, 0, 0}), frame, panel + ", right post");

@@ -14,7 +14,7 @@ Scene makeStudyMirror(float detail);
 Scene makeStudyRoom(float detail);
 Scene makeKitchen(float detail);
 Scene makeKitchenStove(float detail);
-Scene makeKitchenEvening(float detail);
+Scene makeKitchenView2(float detail);
 
 Scene makeBox(float detail);
 enum class TableauFloor : uint8_t { constant, stripes, card, satin, ward };
@@ -23,5 +23,6 @@ Scene makeTreasure(float detail);
 Scene makeHall(float detail);
 Scene makeTeapot(float detail, float exponent);
 Scene makeGlasses(float detail);
+Scene makeRoom(float detail);
 
 }  // namespace lobelia::builtin

@@ -15,6 +15,11 @@ Scene tableau(float detail) {
   return makeTableau(detail, floor);
 }
 
+template <int exponent>
+Scene teapot(float detail) {
+  return makeTeapot(detail, static_cast<float>(exponent));
+}
+
 constexpr BuiltinScene kBuiltins[] = {
     {"cornell", makeCornell, 51288, "A glossy Cornell box with a golden knot"},
     {"study-diffuse", makeStudyDiffuse, 9966, "Rounded box for studies: Lambert"},
@@ -27,8 +32,23 @@ constexpr BuiltinScene kBuiltins[] = {
      "Three glossy sculptures on a glossy floor [P000]"},
     {"tableau-stripes", tableau<TableauFloor::stripes>, 222000,
      "tableau, the floor's gloss in stripes"},
+    {"tableau-card", tableau<TableauFloor::card>, 222000, "tableau, the floor of printed card"},
+    {"tableau-satin", tableau<TableauFloor::satin>, 222000, "tableau, the floor of satin"},
     {"tableau-ward", tableau<TableauFloor::ward>, 222000,
      "tableau, the floor of brushed metal [P003]"},
+    {"treasure", makeTreasure, 918000, "A king's treasure in a hall [P000]"},
+    {"kitchen", makeKitchen, 180000, "A kitchen, sun through the window and twenty lamps [P000]"},
+    {"kitchen-stove", makeKitchenStove, 180000, "kitchen, lit by the lamps above the stove [P003]"},
+    {"kitchen-view2", makeKitchenView2, 180000, "kitchen in the evening, a second view"},
+    {"hall", makeHall, 38000, "A concert hall of curved metal sails in sun and sky [P003]"},
+    {"glasses", makeGlasses, 46000, "Glossy drinking vessels on a glossy table [P002]"},
+    {"teapot", teapot<128>, 55800, "A teapot of Phong exponent 128 [P002]"},
+    {"teapot-32", teapot<32>, 55800, "teapot, Phong exponent 32"},
+    {"teapot-64", teapot<64>, 55800, "teapot, Phong exponent 64"},
+    {"teapot-128", teapot<128>, 55800, "teapot, Phong exponent 128"},
+    {"teapot-256", teapot<256>, 55800, "teapot, Phong exponent 256"},
+    {"teapot-512", teapot<512>, 55800, "teapot, Phong exponent 512"},
+    {"room", makeRoom, 130000, "A dining room lit by its lamps and candles [P004]"},
     {"study-room", makeStudyRoom, 100354, "Closed wavy room for measuring rates of rays"},
 };
 

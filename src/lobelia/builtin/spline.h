@@ -12,6 +12,7 @@ namespace lobelia::builtin {
 // first. Beyond the ends of an open curve the end's chord is continued.
 template <class V>
 V catmullRom(const std::vector<V>& points, bool closed, float t) {
+  if (!closed && t >= 1) return points.back();  // exactly: profiles end on their axis
   const int n = static_cast<int>(points.size()), last = closed ? n : n - 1;
   const float s = t * static_cast<float>(last);
   const int i = std::clamp(static_cast<int>(s), 0, last - 1);

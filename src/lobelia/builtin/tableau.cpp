@@ -7,6 +7,7 @@
 // y is up, the floor y = 0, the viewer at +z.
 #include <cmath>
 
+#include "lobelia/builtin/captured_materials.h"
 #include "lobelia/builtin/creatures.h"
 #include "lobelia/builtin/makers.h"
 #include "lobelia/builtin/scene_builder.h"
@@ -52,6 +53,16 @@ class Tableau : SceneBuilder {
         color.name = "floor-colour";
         bands.image = add(std::move(color));
         return add(phong(add(bands), Rgb(0.60f), add(scaled)), "striped floor");
+      }
+      case TableauFloor::card: {
+        CardStyle style;
+        style.repeats = 8;
+        return addCard(*this, style);
+      }
+      case TableauFloor::satin: {
+        SatinStyle style;
+        style.repeats = 8;
+        return addSatin(*this, style);
       }
       case TableauFloor::ward:
         break;
