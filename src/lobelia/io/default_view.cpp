@@ -1,6 +1,7 @@
 // A view and light for scenes that have none: a camera that frames everything from the front, a
-// little from the right and from above, and the gradient of a photographer's studio.
-#include <fmt/format.h>
+// little from the right and from above (or from the left or behind, where more of the outsides of
+// surfaces shows), and the gradient of a photographer's studio.
+#include "lobelia/io/default_view.h"
 
 #include <cmath>
 
@@ -10,7 +11,10 @@ namespace lobelia::io {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kAzimuth = 30 * kDegree, kElevation = 20 * kDegree;  // of the camera
+constexpr double kElevation = 20 * kDegree;  // of the camera
+// About y from +z, the first preferred.
+constexpr double kAzimuths[] = {30 * kDegree, -30 * kDegree, 150 * kDegree, -150 * kDegree};
+constexpr double kClearlyMore = 1.1;
 constexpr double kFov = 35 * kDegree;
 constexpr double kMargin = 1.06;  // of the film around what is framed
 constexpr int kWidth = 1024, kHeight = 768;
@@ -31,6 +35,46 @@ double framingDistance(const Bounds3f& box, const Mat4& camera) {
   return distance;
 }
 
+// Area of all surfaces, projected along the view, whose outside faces the camera. The same from
+// opposite sides for closed objects; of an open room, more is seen from its open side.
+double facingArea(const Scene& scene, Vec3d towards) {
+  double sum = 0;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene[instance.mesh];
+    const Vec3f local = normalize(instance.toWorld.inverted().vector(
+        {static_cast<float>(towards.x), static_cast<float>(towards.y),
+         static_cast<float>(towards.z)}));
+    // The flow of a parallel light through a triangle scales by the determinant over the stretch
+    // of its direction.
+    const float stretch = length(instance.toWorld.vector(local));
+    const double scale =
+        std::abs(instance.toWorld.to.determinant3()) / static_cast<double>(stretch);
+    double area = 0;
+    for (const Vec3u t : mesh.triangles) {
+      Vec3f n = cross(mesh.positions[t.y] - mesh.positions[t.x],
+                      mesh.positions[t.z] - mesh.positions[t.x]);
+      if (!mesh.normals.empty() &&
+          dot(n, mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z]) < 0)
+        n = -n;
+      area += static_cast<double>(std::max(0.f, dot(n, local)));
+    }
+    sum += area * scale;
+  }
+  return sum;
+}
+
+Vec3d viewDirection(const Scene& scene) {
+  Vec3d best;
+  double most = -1;
+  for (const double azimuth : kAzimuths) {
+    const Vec3d towards(std::sin(azimuth) * std::cos(kElevation), std::sin(kElevation),
+                        std::cos(azimuth) * std::cos(kElevation));
+    const double area = facingArea(scene, towards);
+    if (most < 0 || area > most * kClearlyMore) best = towards, most = area;
+  }
+  return best;
+}
+
 Camera framingCamera(const Scene& scene) {
   Bounds3f box = bounds(scene);
   if (box.empty() || !isFinite(box.extent()) || !(box.radius() > 0)) {
@@ -40,8 +84,7 @@ Camera framingCamera(const Scene& scene) {
   }
   const Vec3f c = box.centre();
   const Vec3d centre(c.x, c.y, c.z);
-  const Vec3d towards(std::sin(kAzimuth) * std::cos(kElevation), std::sin(kElevation),
-                      std::cos(kAzimuth) * std::cos(kElevation));
+  const Vec3d towards = viewDirection(scene);
   const double distance = framingDistance(box, *lookAt(centre, centre - towards, {0, 1, 0}));
   Camera camera;
   camera.name = "default";
@@ -86,6 +129,23 @@ Image studioImage() {
 
 }  // namespace
 
+void addStudio(Scene& scene, const std::string& why) {
+  scene.images.push_back(studioImage());
+  Emitter studio;
+  studio.type = EmitterType::environment;
+  studio.name = "studio";
+  studio.image = {static_cast<uint32_t>(scene.images.size() - 1)};
+  const Vec3f forward =
+      scene.cameras.empty() ? Vec3f(0, 0, -1) : scene.cameras.front().toWorld.vector({0, 0, 1});
+  const double angle = std::atan2(static_cast<double>(forward.x), static_cast<double>(forward.z));
+  studio.toWorld = Transform(rotation({0, 1, 0}, angle / kDegree));
+  scene.emitters.push_back(studio);
+  Finding finding{Severity::info, {scene.file, 0, 0}, why};
+  finding.message +=
+      "; a neutral studio environment is added (--environment FILE lights the scene with another)";
+  scene.findings.push_back(std::move(finding));
+}
+
 void addDefaultView(Scene& scene) {
   const Location where{scene.file, 0, 0};
   if (scene.cameras.empty()) {
@@ -93,21 +153,7 @@ void addDefaultView(Scene& scene) {
     scene.findings.push_back(
         {Severity::info, where, "there is no camera; one that frames everything is added"});
   }
-  if (scene.emitters.empty()) {
-    scene.images.push_back(studioImage());
-    Emitter studio;
-    studio.type = EmitterType::environment;
-    studio.name = "studio";
-    studio.image = {static_cast<uint32_t>(scene.images.size() - 1)};
-    // Turned with the camera about the vertical.
-    const Vec3f forward = scene.cameras.front().toWorld.vector({0, 0, 1});
-    const double angle = std::atan2(static_cast<double>(forward.x), static_cast<double>(forward.z));
-    studio.toWorld = Transform(rotation({0, 1, 0}, angle / kDegree));
-    scene.emitters.push_back(studio);
-    scene.findings.push_back({Severity::info, where,
-                              "nothing shines; a neutral studio environment is added "
-                              "(--environment FILE lights the scene with another)"});
-  }
+  if (scene.emitters.empty()) addStudio(scene, "nothing shines");
 }
 
 }  // namespace lobelia::io

@@ -107,7 +107,9 @@ std::vector<StoredImage> readOpened(const std::string& file, OIIO::Filesystem::I
   try {
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
-    const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(file, &hints, proxy);
+    // As an attribute: open()'s own argument for it is lost when there are hints too.
+    if (proxy) hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(file, &hints);
     if (!in) fail(OIIO::geterror());
     for (int i = 0; (i == 0 || all) && in->seek_subimage(i, 0); ++i) {
       const OIIO::ImageSpec spec = in->spec_dimensions(i).nchannels > 0 ? in->spec(i) : in->spec();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "lobelia/io/default_view.h"
 #include "lobelia/io/gltf/materials.h"
 #include "lobelia/io/gltf/primitives.h"
 #include "lobelia/io/gltf/views.h"
@@ -229,6 +230,20 @@ void Reader::addInstances(const Json& node, const Json& primitiveJson, const Pri
                                      flat));
 }
 
+// glTF's core has emission up to 1 for displays and signs: files with nothing else expect the light
+// of a viewer.
+bool onlyGlows(const Scene& scene) {
+  for (const Emitter& emitter : scene.emitters) {
+    const ColorParam& radiance = emitter.radiance;
+    if (emitter.type != EmitterType::area) return false;
+    const bool scaled =
+        radiance.texture.valid() && scene[radiance.texture].type == TextureType::scale;
+    const float most = scaled ? scene[radiance.texture].scale : maxComponent(radiance.value);
+    if (most > 1) return false;
+  }
+  return true;
+}
+
 }  // namespace
 }  // namespace gltf
 
@@ -240,7 +255,9 @@ Scene readGltf(const std::string& file, const ReadSettings& settings, Context& c
   gltf::Reader(document, settings, scene).read(context);
   if (scene.name.empty()) scene.name = std::filesystem::path(file).stem().string();
   applyEnvironment(scene, settings);
+  const bool glows = !scene.emitters.empty() && gltf::onlyGlows(scene);
   addDefaultView(scene);
+  if (glows) addStudio(scene, "surfaces glow, but none brighter than white, and there is no light");
   return scene;
 }
 
