@@ -33,11 +33,12 @@ struct CommandLine {
   GlobalOptions global;
   RenderOptions render;
   CompareOptions compare;
+  FitOptions fit;
   InfoOptions info;
   ConvertOptions scene, convert;
   BenchOptions bench;
   CLI::App *renderCommand, *compareCommand, *infoCommand, *methodsCommand, *sceneCommand,
-      *convertCommand, *benchCommand;
+      *convertCommand, *benchCommand, *fitCommand;
 
   CommandLine() {
     app.set_version_flag("--version", std::string("lobelia ") + kVersion);
@@ -55,6 +56,12 @@ struct CommandLine {
                                "Compare only where this image is above 0.5");
     compareCommand->add_option("--diff", compare.diff, "Write a difference picture (FLIP) as PNG");
     compareCommand->add_flag("--json", compare.json, "Print JSON");
+    fitCommand = app.add_subcommand("fit", "Fit captured reflectance to a table of MERL");
+    fitCommand->add_option("table", fit.table, "MERL table (.binary)")->required();
+    fitCommand->add_option("-o,--output", fit.output, "Material: .xml to include, or .json");
+    fitCommand->add_option("--lobes", fit.lobes, "Spherical Gaussians, at most")
+        ->capture_default_str();
+    fitCommand->add_flag("--json", fit.json, "Print JSON");
     infoCommand = app.add_subcommand("info", "Validate and describe a scene, with all warnings");
     addSceneOptions(*infoCommand, info.scene);
     infoCommand->add_flag("--json", info.json, "Print JSON");
@@ -96,6 +103,7 @@ struct CommandLine {
   ExitCode dispatch(const std::string& text) const {
     if (*renderCommand) return app::render(render, global, text);
     if (*compareCommand) return compareImages(compare);
+    if (*fitCommand) return app::fit(fit);
     if (*infoCommand) return app::info(info, global);
     if (*sceneCommand) {
       const std::vector<std::string> names = builtin::builtinSceneNames();

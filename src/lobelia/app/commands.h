@@ -12,6 +12,13 @@ struct CompareOptions {
 };
 ExitCode compareImages(const CompareOptions& options);
 
+struct FitOptions {
+  std::string table, output;
+  int lobes = 3;
+  bool json = false;
+};
+ExitCode fit(const FitOptions& options);
+
 struct InfoOptions {
   SceneOptions scene;
   bool json = false;

@@ -18,7 +18,8 @@ const std::vector<std::string>& bsdfTypes() {
       "principled",        "principledthin",  "phong",          "ward",
       "difftrans",         "twosided",        "mask",           "blendbsdf",
       "mixturebsdf",       "bumpmap",         "normalmap",      "null",
-      "metallicroughness", "coatedconductor"};
+      "metallicroughness", "coatedconductor", "sphericalgaussians", "measured",
+      "merl"};
   return types;
 }
 
@@ -123,6 +124,10 @@ Material Reader::simpleMaterial(Object& object) {
     m = metallicRoughness(object);
   } else if (type == "coatedconductor") {
     m = coatedConductor(object);
+  } else if (type == "sphericalgaussians") {
+    m = sphericalGaussians(object);
+  } else if (type == "measured" || type == "merl") {
+    m = measured(object);
   } else if (type == "null") {
     m.type = MaterialType::null;
   } else {

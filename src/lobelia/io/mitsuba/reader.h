@@ -60,6 +60,10 @@ class Reader {
   // extension_bsdfs.cpp
   Material metallicRoughness(Object& object);
   Material coatedConductor(Object& object);
+
+  // captured.cpp
+  Material sphericalGaussians(Object& object);
+  Material measured(Object& object);
   Rgb absorption(Object& object);
   TextureHandle textureOnly(Object& object, const std::string& name);
   void indexOfRefraction(Object& object, const std::string& defaultInside, Material* out);

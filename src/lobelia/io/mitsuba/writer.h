@@ -51,6 +51,9 @@ class Writer {
   // writer_extensions.cpp
   void metallicRoughness(Node node, const Material& material);
   void coatedConductor(Node node, const Material& material);
+
+  // captured.cpp
+  void sphericalGaussians(Node node, const Material& material);
   void absorption(Node node, const Material& material);
 
   // writer.cpp

@@ -333,6 +333,9 @@ void Writer::materialProperties(Node node, const Material& m) {
     case MaterialType::coatedConductor:
       coatedConductor(node, m);
       break;
+    case MaterialType::sphericalGaussians:
+      sphericalGaussians(node, m);
+      break;
     case MaterialType::twoSided:
       nested();
       break;
