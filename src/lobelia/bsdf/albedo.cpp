@@ -137,6 +137,10 @@ Rgb lobeAlbedo(const Lobe& lobe, float cosThetaO) {
     if (behind && lobe.type == LobeType::microfacetReflection) return below;
     const float t = lookUpCoat(lobe.table, cosine);
     if (lobe.type == LobeType::microfacetTransmission) return below * t;
+    if (lobe.fresnel == Fresnel::coatedConductor) {
+      const Rgb f = fresnelOf(lobe, cosine, false);
+      return below * (t * t) / max(Rgb(1.f) - f * (1 - t), Rgb(1e-4f));
+    }
     return below * (t * (lobe.type == LobeType::sheen ? lobe.table[kTransmittanceSize] : t));
   }
   switch (lobe.type) {

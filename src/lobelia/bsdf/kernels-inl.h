@@ -115,14 +115,10 @@ LOBELIA_HD V3<F> fresnelReflectance(Fresnel fresnel, const LobeParameters<F>& p,
       return p.eta * (F(1.f) - w) + (splat(F(1.f)) - p.k) * w;
     }
     case Fresnel::coatedConductor: {
-      // Metal below the coat, where cosines are refracted ones; light goes back and forth between
-      // the two: f + f r f + ... The coat reflects alike from both sides of one ray.
+      // Metal below the coat, where cosines are refracted ones.
       const F n = p.parameters.x;
       const F inside = sqrt(max(F(0.f), F(1.f) - (F(1.f) - cosine * cosine) / (n * n)));
-      const F r = fresnelDielectric(cosine, n);
-      const V3<F> f = fresnelConductor(inside, p.eta, p.k);
-      return {f.x / max(F(1.f) - r * f.x, F(1e-6f)), f.y / max(F(1.f) - r * f.y, F(1e-6f)),
-              f.z / max(F(1.f) - r * f.z, F(1e-6f))};
+      return fresnelConductor(inside, p.eta, p.k);
     }
     case Fresnel::dielectric:
       return splat(fresnelDielectric(cosine, select(back > F(0.5f), F(1.f) / p.eta.x, p.eta.x)));
@@ -401,13 +397,23 @@ LOBELIA_HD V3<F> evaluateSheen(const LobeParameters<F>& p, const SidedPair<F>& d
 }
 
 // What the layers above a lobe leave of light on its way in and out. They lie on the front; inside
-// an interface there are none, at a thin sheet they are on both sides.
+// an interface there are none, at a thin sheet they are on both sides. Of what a metal reflects to
+// its coat, r comes back: f + f r f + ... = f / (1 - r f). r is the lesser reflectance of the coat
+// for the two directions: exact where all is smooth, and never more than goes in.
 template <class F, class Table>
-LOBELIA_HD F throughLayers(LobeType type, const SidedPair<F>& d, const Table& table) {
+LOBELIA_HD V3<F> throughLayers(LobeTags tags, const LobeParameters<F>& p, const SidedPair<F>& d,
+                               V3<F> v, const Table& table) {
   const F o = table(min(d.wo.z, F(1.f))), i = table(min(abs(d.wi.z), F(1.f)));
-  if (type == LobeType::thinTransmission) return o * i;
+  if (tags.type == LobeType::thinTransmission) return v * (o * i);
+  if (tags.fresnel == Fresnel::coatedConductor) {
+    const F cosine = dot(d.wo, unitVector(d.wo + d.wi));
+    const V3<F> f = fresnelReflectance(tags.fresnel, p, cosine, F(0.f));
+    const F r = F(1.f) - max(o, i), t = o * i;
+    return {v.x * t / max(F(1.f) - r * f.x, F(1e-6f)), v.y * t / max(F(1.f) - r * f.y, F(1e-6f)),
+            v.z * t / max(F(1.f) - r * f.z, F(1e-6f))};
+  }
   const F wiOutside = select(d.wi.z > F(0.f), F(1.f) - d.back, d.back);
-  return select(d.back > F(0.5f), F(1.f), o) * select(wiOutside > F(0.5f), i, F(1.f));
+  return v * (select(d.back > F(0.5f), F(1.f), o) * select(wiOutside > F(0.5f), i, F(1.f)));
 }
 
 // ---- Dispatch
@@ -458,7 +464,7 @@ LOBELIA_HD V3<F> evaluateLobe(LobeTags tags, const LobeParameters<F>& p, V3<F> w
   const bool mayBeCoated =
       tags.type == LobeType::sheen || tags.type == LobeType::thinTransmission ||
       tags.type == LobeType::microfacetReflection || tags.type == LobeType::microfacetTransmission;
-  if (mayBeCoated && (tags.variant & kCoated) != 0) v = v * throughLayers(tags.type, d, table);
+  if (mayBeCoated && (tags.variant & kCoated) != 0) v = throughLayers(tags, p, d, v, table);
   return {select(d.active > F(0.f), v.x, F(0.f)), select(d.active > F(0.f), v.y, F(0.f)),
           select(d.active > F(0.f), v.z, F(0.f))};
 }

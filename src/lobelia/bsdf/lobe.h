@@ -22,8 +22,8 @@ enum class LobeType : uint8_t {
   ward,                    // Ward's anisotropic model, variant in Lobe::variant
   diffuseTransmission,     // weight / pi into the other side
   sheen,                   // Charlie's distribution [Estevez17], roughness in alphaX
-  thinTransmission,  // through a thin sheet: the reflection of its microfacets mirrored to the
-                     // other side, with one minus the Fresnel factor
+  thinTransmission,   // through a thin sheet: the reflection of its microfacets mirrored to the
+                      // other side, with one minus the Fresnel factor
   deltaReflection,    // perfect mirror
   deltaTransmission,  // perfect refraction, relative index in eta.x
   null,               // straight through (weight: transmittance)
@@ -32,8 +32,8 @@ enum class LobeType : uint8_t {
 // sphericalGaussian: exp(2 / alpha^2 (h.n - 1)), normalised; isotropic [Wang09] (bsdf/captured.h).
 enum class Distribution : uint8_t { ggx, beckmann, phong, gtr1, sphericalGaussian };
 // one: weight only; conductor: eta, k; schlick: f0 in eta, one minus the value at grazing incidence
-// in k; coatedConductor: eta, k relative to a coat of index parameters.x, the reflections between
-// the two summed, without the way in and out (Lobe::table); dielectric: eta.x =
+// in k; coatedConductor: eta, k relative to a coat of index parameters.x, at the refracted cosine;
+// under kCoated the reflections between metal and coat are summed; dielectric: eta.x =
 // n(inside)/n(outside); principled: the blend of [Burley 2015] as Mitsuba 3 has it (eta.x;
 // parameters.x: share of the exact dielectric term; tint: normal reflectance of the rest, 90-degree
 // value one minus that share; parameters.y: weight of the back side); thinDielectric: a pane, all

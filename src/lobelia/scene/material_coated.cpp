@@ -4,9 +4,10 @@
 //
 // The conductor's index is taken relative to the coat, its Fresnel factor at the refracted cosine,
 // and light that the coat sends back to it is summed: T T f / (1 - r f), exact where both are
-// smooth (Fresnel::coatedConductor). T is one minus the albedo of the coat (bsdf/layers.h). Its
-// roughness is what comes out: a tilt d of a micro-normal in the metal turns the ray inside by 2 d
-// and outside by 2 n d; tilts d1, d2 of the coat where light goes in and out turn it by (n - 1) (d1
+// smooth (throughLayers() in bsdf/kernels-inl.h). T is one minus the albedo of the coat
+// (bsdf/layers.h). Its roughness is what comes out: a tilt d of a micro-normal in the metal turns
+// the ray inside by 2 d and outside by 2 n d; tilts d1, d2 of the coat where light goes in and out
+// turn it by (n - 1) (d1
 // + d2). Variances of slopes add: alpha^2 = n^2 alphaMetal^2 + (n - 1)^2 / 2 alphaCoat^2.
 // Deviations: that is first order in the tilts and at normal incidence, the same for all
 // directions; the sum over reflections keeps the roughness of the first.
@@ -54,7 +55,9 @@ void addCoatedConductorLobes(const Builder& b) {
   Rgb value = b.color(m.specular);
   if (smoothCoat && std::max(metal.alphaX, metal.alphaY) <= 2 * kMinAlpha * std::max(n, 1.f)) {
     metal.type = LobeType::deltaReflection;
-    value *= sqr(1 - lobeAlbedo(coat, std::abs(b.cosThetaO)).x);
+    const float r = lobeAlbedo(coat, std::abs(b.cosThetaO)).x;
+    const Rgb f = lobeAlbedo(metal, std::abs(b.cosThetaO));
+    value *= Rgb(sqr(1 - r)) / max(Rgb(1.f) - f * r, Rgb(1e-4f));
   } else {
     metal.variant = kCoated;
     metal.table = table.data();
