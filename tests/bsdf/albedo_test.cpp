@@ -53,6 +53,16 @@ TEST(LobeAlbedo, OtherLobes) {
     for (const float alpha : {0.05f, 0.2f, 0.7f})
       expectAlbedo("ward " + std::to_string(variant) + " " + std::to_string(alpha),
                    simple(LobeType::ward, alpha, alpha, variant), alpha, 0.005f);
+  for (const float alpha : {0.08f, 0.1f, 0.35f, 0.8f})
+    expectAlbedo("sheen", simple(LobeType::sheen, alpha), 1, 0.005f);
+  Lobe sheet = microfacets(Distribution::ggx, 0.2f, 0.2f, Fresnel::schlick);
+  sheet.type = LobeType::thinTransmission;
+  sheet.k = {0.f, 0.5f, 1.f};
+  expectAlbedo("sheet", sheet, 0.2f, 0.005f);
+  Lobe metal = microfacets(Distribution::ggx, 0.3f, 0.3f, Fresnel::coatedConductor);
+  metal.eta = {0.2f, 0.92f, 1.1f}, metal.k = {3.9f, 2.45f, 2.14f};
+  metal.parameters.x = 1.5f;
+  expectAlbedo("metal in a medium", metal, 0.3f, 0.005f);
   for (const float roughness : {0.f, 0.5f, 1.f})
     for (const float flatness : {0.f, 0.6f})
       expectAlbedo("principled", principledBase(roughness, flatness, 0.4f), 1, 0.005f);
@@ -73,6 +83,21 @@ TEST(LobeAlbedo, EstimatesAreNear) {
         EXPECT_NEAR(lobeAlbedo(glass.lobes[lobe], cosine).y, t, cosine > 0 ? 0.05f : 0.11f)
             << cosine << " eta " << eta << " lobe " << lobe;
       }
+    }
+  }
+}
+
+TEST(LobeAlbedo, UnderOtherLayers) {
+  Lobe metal = microfacets(Distribution::ggx, 0.1f, 0.1f, Fresnel::schlick);
+  Lobe sheet = metal;
+  sheet.type = LobeType::thinTransmission;
+  for (const Lobe& bare : {metal, sheet, simple(LobeType::sheen, 0.3f)}) {
+    const Lobe lobe = underCoat(bare);
+    for (const float cosine : {0.95f, 0.5f, 0.2f}) {
+      const float exact = integrate(lobe, directionAt(cosine, 0.7f), 0.1f).y;
+      EXPECT_NEAR(lobeAlbedo(lobe, cosine).y, exact, 0.04f * exact + 0.005f)
+          << cosine << " " << static_cast<int>(lobe.type);
+      EXPECT_LT(exact, 0.97f * lobeAlbedo(bare, cosine).y);
     }
   }
 }

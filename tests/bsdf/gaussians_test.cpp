@@ -10,6 +10,7 @@
 #include "lobelia/base/sampling.h"
 #include "lobelia/bsdf/albedo.h"
 #include "lobelia/bsdf/bsdf.h"
+#include "lobelia/bsdf/layers.h"
 #include "lobelia/lobes/spherical_gaussian.h"
 #include "lobes/sphere_quadrature.h"
 
@@ -226,6 +227,16 @@ TEST(Expand, EnergyIsTheAlbedoAtEveryAngle) {
   for (const float a : {.03f, .3f, 1.8f})
     lobes.emplace_back("sg", microfacet(Distribution::sphericalGaussian, a, a));
   lobes.emplace_back("ward .3/.05", ward(.3f, .05f));
+  Lobe coated = microfacet(Distribution::ggx, .2f, .2f);
+  coated.variant = kCoated;
+  coated.fresnel = Fresnel::coatedConductor;
+  coated.eta = Rgb(0.2f), coated.k = Rgb(3.9f), coated.parameters.x = 1.5f;
+  Lobe sheet = microfacet(Distribution::ggx, .2f, .2f);
+  sheet.fresnel = Fresnel::dielectric, sheet.eta = Rgb(1.5f);
+  coated.table = layerTransmittance({&sheet, 1}).data();
+  sheet.type = LobeType::thinTransmission;
+  lobes.emplace_back("coated conductor", coated);
+  lobes.emplace_back("thin transmission", sheet);
   for (const auto& [name, lobe] : lobes) {
     const Bsdf bsdf = bsdfOf(lobe);
     for (float degrees : {1.f, 40.f, 70.f, 80.f}) {
@@ -285,7 +296,8 @@ TEST(Expand, IsFiniteForEveryLobeAndAngle) {
     for (int k = 0; k < lobeCount; ++k) {
       const auto alpha = [&] { return std::exp(-7 * rng.next1D()); };
       Lobe lobe = microfacet(static_cast<Distribution>(rng.nextUint() % 3), alpha(), alpha());
-      const uint32_t kind = rng.nextUint() % 5;
+      const uint32_t kind = rng.nextUint() % 6;
+      if (kind == 5) lobe.type = LobeType::thinTransmission;
       if (kind == 0) lobe = phongLobe(std::exp(9 * rng.next1D()));
       if (kind == 1) lobe = ward(alpha(), alpha());
       if (kind == 2) lobe = transmission(alpha(), 0.5f + 2 * rng.next1D());

@@ -7,6 +7,7 @@
 #include "lobelia/bsdf/bsdf.h"
 #include "lobelia/bsdf/captured.h"
 #include "lobelia/bsdf/coat.h"
+#include "lobelia/bsdf/layers.h"
 #include "lobelia/bsdf/lobe_sampling.h"
 #include "support/chi_squared.h"
 
@@ -88,6 +89,14 @@ inline Lobe smoothCoated() {
   return lobe;
 }
 
+// Under a rough dielectric coat.
+inline Lobe underCoat(Lobe lobe) {
+  const Lobe coat = microfacets(Distribution::ggx, 0.2f, 0.2f, Fresnel::dielectric);
+  lobe.variant = static_cast<uint8_t>(lobe.variant | kCoated);
+  lobe.table = layerTransmittance({&coat, 1}).data();
+  return lobe;
+}
+
 // One of every kind at several roughnesses.
 inline std::vector<Example> examples() {
   std::vector<Example> all;
@@ -139,6 +148,24 @@ inline std::vector<Example> examples() {
   captured.add(capturedLobe(Rgb(0.5f / projectedIntegral(300)), 300, 1.5f));
   captured.add(capturedLobe(Rgb(0.5f / projectedIntegral(8)), 8, 1.5f));
   add("captured", captured, 0.08f);
+  for (const float alpha : {0.08f, 0.3f, 0.9f})
+    add("sheen " + std::to_string(alpha), single(simple(LobeType::sheen, alpha)), 1);
+  add("coated sheen", single(underCoat(simple(LobeType::sheen, 0.4f))), 1);
+  for (const auto& a : {std::pair(0.05f, 0.05f), std::pair(0.4f, 0.15f)}) {
+    Lobe sheet = microfacets(Distribution::ggx, a.first, a.second, Fresnel::dielectric);
+    sheet.type = LobeType::thinTransmission;
+    sheet.twoSided = true;
+    const std::string name = std::to_string(a.first);
+    add("thin transmission " + name, single(sheet), a.second);
+    add("coated thin transmission " + name, single(underCoat(sheet)), a.second);
+    Bsdf glass = roughGlass(Distribution::ggx, a.first, a.second, 1.5f);
+    for (int i = 0; i < 2; ++i) glass.lobes[i] = underCoat(glass.lobes[i]);
+    add("coated glass " + name, glass, a.second);
+    Lobe metal = microfacets(Distribution::ggx, a.first, a.second, Fresnel::coatedConductor);
+    metal.eta = Rgb(0.2f), metal.k = Rgb(2.6f);
+    metal.parameters.x = 1.5f;
+    add("coated conductor " + name, single(underCoat(metal)), a.second);
+  }
   Bsdf mixture;
   mixture.add(simple(LobeType::lambert));
   mixture.add(microfacets(Distribution::ggx, 0.2f, 0.1f, Fresnel::schlick));

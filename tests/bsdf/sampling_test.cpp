@@ -25,7 +25,9 @@ TEST(BsdfSampling, FollowsItsDensity) {
   const std::vector<Example> all = examples();
   const auto parts = [](const Example& e, const View& v) {
     std::vector<Part> list = partsOf(e, directionAt(v.cosTheta, v.phi));
-    if (!e.bsdf.lobes[0].interface && e.bsdf.lobes[0].type != LobeType::diffuseTransmission)
+    const LobeType type = e.bsdf.lobes[0].type;
+    if (!e.bsdf.lobes[0].interface && type != LobeType::diffuseTransmission &&
+        type != LobeType::thinTransmission)
       list.pop_back();
     return list;
   };

@@ -66,6 +66,8 @@ INSTANTIATE_TEST_SUITE_P(
                     LobeCase{"microfacetTransmission", {LobeType::microfacetTransmission}, 1},
                     LobeCase{"phong", {LobeType::phong}, 1}, LobeCase{"ward", {LobeType::ward}, 1},
                     LobeCase{"diffuseTransmission", {LobeType::diffuseTransmission}, 1},
+                    LobeCase{"sheen", {LobeType::sheen}, 1},
+                    LobeCase{"thinTransmission", {LobeType::thinTransmission}, 1},
                     LobeCase{"mixtures",
                              {LobeType::lambert, LobeType::coatedDiffuse,
                               LobeType::microfacetReflection, LobeType::phong, LobeType::ward,

@@ -38,6 +38,17 @@ inline Scene randomTriangles(int count, uint64_t seed) {
   return scene;
 }
 
+// One of two transmittance tables.
+inline const float* randomTable(Rng* rng) {
+  static const std::vector<float> table = [] {
+    std::vector<float> values;
+    for (int i = 0; i < 2 * kTransmittanceSize; ++i)
+      values.push_back(0.9f - 0.8f * std::exp(-0.1f * static_cast<float>(i)));
+    return values;
+  }();
+  return table.data() + (rng->next1D() < 0.5f ? 0 : kTransmittanceSize);
+}
+
 // A plausible rough lobe of the given kind.
 inline Lobe randomLobe(LobeType type, Rng* rng) {
   Lobe lobe;
@@ -48,40 +59,44 @@ inline Lobe randomLobe(LobeType type, Rng* rng) {
   lobe.eta = Rgb(1.2f + 0.5f * rng->next1D());
   const bool coin = rng->next1D() < 0.5f;
   switch (type) {
-    case LobeType::coatedDiffuse: {
-      static const std::vector<float> table = [] {
-        std::vector<float> values;
-        for (int i = 0; i < 2 * kTransmittanceSize; ++i)
-          values.push_back(0.9f - 0.8f * std::exp(-0.1f * static_cast<float>(i)));
-        return values;
-      }();
+    case LobeType::coatedDiffuse:
       if (coin) {
         lobe.variant = 1;
-        lobe.table = table.data() + (rng->next1D() < 0.5f ? 0 : kTransmittanceSize);
+        lobe.table = randomTable(rng);
       }
       break;
-    }
+    case LobeType::sheen:
+      if (coin) lobe.variant = kCoated, lobe.table = randomTable(rng);
+      break;
     case LobeType::principledDiffuse:
       lobe.k = randomColor(rng);
       lobe.parameters = randomColor(rng);
       lobe.tint = randomColor(rng);
       break;
     case LobeType::microfacetReflection:
+    case LobeType::thinTransmission:
+      if (coin) lobe.variant = kCoated, lobe.table = randomTable(rng);
       lobe.distribution =
           static_cast<Distribution>(std::min(4, static_cast<int>(rng->next1D() * 5)));
-      lobe.fresnel = static_cast<Fresnel>(std::min(5, static_cast<int>(rng->next1D() * 6)));
-      if (lobe.fresnel == Fresnel::schlick) lobe.eta = randomColor(rng);
+      lobe.fresnel = static_cast<Fresnel>(std::min(6, static_cast<int>(rng->next1D() * 7)));
+      if (lobe.fresnel == Fresnel::schlick) lobe.eta = randomColor(rng), lobe.k = randomColor(rng);
       if (lobe.fresnel == Fresnel::conductor)
         lobe.eta = randomColor(rng) * 2.f, lobe.k = randomColor(rng) * 3.f;
       lobe.parameters = randomColor(rng);
       lobe.tint = randomColor(rng);
-      lobe.interface = coin && lobe.fresnel == Fresnel::dielectric;
+      if (lobe.fresnel == Fresnel::coatedConductor) {
+        lobe.k = randomColor(rng) * 3.f;
+        lobe.parameters.x = 1.5f;
+      }
+      lobe.interface = coin && lobe.fresnel == Fresnel::dielectric &&
+                       lobe.type == LobeType::microfacetReflection;
       break;
     case LobeType::microfacetTransmission:
       lobe.distribution =
           static_cast<Distribution>(std::min(2, static_cast<int>(rng->next1D() * 3)));
       lobe.fresnel = Fresnel::dielectric;
       lobe.interface = true;
+      if (coin) lobe.variant = kCoated, lobe.table = randomTable(rng);
       return lobe;
     case LobeType::phong:
       lobe.alphaX = 5 + 60 * rng->next1D();
