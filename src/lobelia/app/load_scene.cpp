@@ -70,9 +70,11 @@ Scene loadScene(const SceneOptions& options, Context& context) {
   Scene scene;
   if (isBuiltin(options.scene)) {
     if (!settings.definitions.empty()) throw UsageError("-D: built-in scenes have no definitions");
-    scene = builtin::builtinScene(options.scene, options.detail);
+    scene = builtin::builtinScene(options.scene, options.detail, options.meshes);
     io::applyEnvironment(scene, settings);
   } else {
+    if (!options.meshes.empty())
+      throw UsageError("--meshes: only built-in scenes have stand-ins for real meshes");
     scene = io::readScene(options.scene, settings, context);
   }
   if (context.cancelled()) throw Cancelled{};  // and no judgement of half a scene

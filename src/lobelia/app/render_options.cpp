@@ -69,6 +69,9 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
   c.add_option("--detail", o.detail, "Tessellation of built-in scenes")
       ->check(finiteNumber(0.01, 100))
       ->capture_default_str();
+  c.add_option("--meshes", o.meshes,
+               "Folder of real meshes (dragon.ply, suzanne.obj, bunny.ply, teapot.obj...) that take "
+               "the place of a built-in scene's stand-ins");
 }
 
 void addGlobalOptions(CLI::App& c, GlobalOptions& o) {

@@ -20,7 +20,8 @@ struct SceneOptions {
   std::string environment, sky, variant;
   float time = 0;
   bool strict = false;
-  float detail = 1;  // built-in scenes
+  float detail = 1;    // built-in scenes
+  std::string meshes;  // built-in scenes: folder of real meshes
 };
 
 struct RenderOptions {

@@ -17,7 +17,8 @@ struct BuiltinScene {
 std::span<const BuiltinScene> builtinScenes();
 std::vector<std::string> builtinSceneNames();
 // detail scales the tessellation along an edge: triangles grow as its square. Throws UsageError
-// with the known names.
-Scene builtinScene(const std::string& name, float detail);
+// with the known names. meshes: a folder of real meshes to take the place of stand-ins, if not empty
+// (real_meshes.h).
+Scene builtinScene(const std::string& name, float detail, const std::string& meshes = {});
 
 }  // namespace lobelia::builtin

@@ -6,6 +6,7 @@
 
 #include "lobelia/builtin/builtin_scenes.h"
 #include "lobelia/builtin/makers.h"
+#include "lobelia/builtin/real_meshes.h"
 
 namespace lobelia::builtin {
 namespace {
@@ -48,7 +49,7 @@ constexpr BuiltinScene kBuiltins[] = {
     {"teapot-128", teapot<128>, 55800, "teapot, Phong exponent 128"},
     {"teapot-256", teapot<256>, 55800, "teapot, Phong exponent 256"},
     {"teapot-512", teapot<512>, 55800, "teapot, Phong exponent 512"},
-    {"room", makeRoom, 130000, "A dining room lit by its lamps and candles [P004]"},
+    {"room", makeRoom, 144000, "A dining room lit by its lamps and candles [P004]"},
     {"study-room", makeStudyRoom, 100354, "Closed wavy room for measuring rates of rays"},
 };
 
@@ -62,13 +63,14 @@ std::vector<std::string> builtinSceneNames() {
   return names;
 }
 
-Scene builtinScene(const std::string& name, float detail) {
+Scene builtinScene(const std::string& name, float detail, const std::string& meshes) {
   if (!std::isfinite(detail) || detail < 0.05f || detail > 20)
     throw UsageError(fmt::format("detail {}: must be a number from 0.05 to 20", detail));
   for (const BuiltinScene& builtin : kBuiltins)
     if (name == builtin.name) {
       Scene scene = builtin.make(detail);
       scene.name = name;
+      if (!meshes.empty()) useRealMeshes(scene, meshes);
       return scene;
     }
   const std::vector<std::string> names = builtinSceneNames();
