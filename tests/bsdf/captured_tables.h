@@ -1,6 +1,7 @@
 // Tables of reflectance made from BSDFs.
 #pragma once
 
+#include "lobelia/base/parallel.h"
 #include "lobelia/bsdf/bsdf.h"
 #include "lobelia/bsdf/tabulated_brdf.h"
 
@@ -8,7 +9,8 @@ namespace lobelia::test {
 
 inline TabulatedBrdf tabulate(const Bsdf& bsdf) {
   TabulatedBrdf table;
-  for (int h = 0; h < TabulatedBrdf::kThetaH; ++h) {
+  parallelFor(TabulatedBrdf::kThetaH, 1, [&](size_t row) {
+    const int h = static_cast<int>(row);
     for (int d = 0; d < TabulatedBrdf::kThetaD; ++d) {
       for (int p = 0; p < TabulatedBrdf::kPhiD; ++p) {
         const DirectionPair pair = toDirections(TabulatedBrdf::centre(h, d, p));
@@ -16,7 +18,7 @@ inline TabulatedBrdf tabulate(const Bsdf& bsdf) {
         table.values[TabulatedBrdf::index(h, d, p)] = evaluate(bsdf, pair.wo, pair.wi) / pair.wi.z;
       }
     }
-  }
+  });
   countInvalid(table);
   return table;
 }

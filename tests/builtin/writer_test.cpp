@@ -130,7 +130,7 @@ class Everything {
   }
 
   void addMaterials() {
-    for (int type = 0; type <= static_cast<int>(MaterialType::coatedConductor); ++type) {
+    for (int type = 0; type <= static_cast<int>(MaterialType::sphericalGaussians); ++type) {
       Material m;
       m.type = static_cast<MaterialType>(type);
       m.name = type % 3 ? "same \"name\" $x" : "";
@@ -138,9 +138,9 @@ class Everything {
       const auto is = [&](auto... types) { return ((m.type == types) || ...); };
       using T = MaterialType;
       if (is(T::diffuse, T::plastic, T::roughPlastic, T::phong, T::ward, T::principled,
-             T::diffuseTransmitter, T::metallicRoughness))
+             T::diffuseTransmitter, T::metallicRoughness, T::sphericalGaussians))
         m.diffuse = type % 2 ? ColorParam(checker_) : ColorParam(randomRgb());
-      if (!is(T::diffuse, T::principled, T::diffuseTransmitter))
+      if (!is(T::diffuse, T::principled, T::diffuseTransmitter, T::sphericalGaussians))
         m.specular = type % 2 ? ColorParam(randomRgb()) : ColorParam(bitmaps_[0]);
       if (is(T::dielectric, T::thinDielectric, T::roughDielectric, T::diffuseTransmitter))
         m.transmittance = is(T::thinDielectric) ? ColorParam(combined_) : ColorParam(randomRgb());
@@ -148,8 +148,10 @@ class Everything {
       if (is(T::conductor, T::roughConductor, T::coatedConductor))
         m.eta = randomRgb(), m.k = randomRgb();
       if (is(T::dielectric, T::thinDielectric, T::roughDielectric, T::plastic, T::roughPlastic,
-             T::principled, T::metallicRoughness))
+             T::principled, T::metallicRoughness, T::sphericalGaussians))
         m.ior = 1 + random();
+      if (is(T::sphericalGaussians))
+        m.capturedLobes = {{randomRgb() * 30.f, 70.5f}, {bitmaps_[0], scaled_}};
       if (is(T::plastic, T::roughPlastic)) m.nonlinear = true;
       if (is(T::roughConductor))
         m.distribution = Distribution::ggx, m.alphaU = second_, m.alphaV = attribute_;

@@ -90,6 +90,11 @@ class SceneText {
                                 &m.coatAlphaU,
                                 &m.coatAlphaV})
       out += (f->texture.valid() ? texture(f->texture) : fmt::format("{}", f->value)) + " ";
+    for (const CapturedLobe& lobe : m.capturedLobes) {
+      const FloatParam& s = lobe.sharpness;
+      out += color(lobe.amplitude) + " " +
+             (s.texture.valid() ? texture(s.texture) : fmt::format("{}", s.value)) + " ";
+    }
     return out + material(m.a) + " " + material(m.b) + ")";
   }
   std::string emitter(const Emitter& e) const {

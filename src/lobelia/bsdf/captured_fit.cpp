@@ -1,5 +1,5 @@
-// The error is that of cube roots of f sqrt(cos_o cos_i), as perceptual studies of measured
-// reflectance use [Low12: compressive metrics], over the table's own grid (even in the square root
+// The error is that of cube roots of f sqrt(cos_o cos_i), a compressive metric as for measured
+// reflectance in [Low12], over the table's own grid (even in the square root
 // of theta_h, which weighs highlight and tails alike), up to 80 degrees from the normal: beyond,
 // measurements are mostly noise. Amplitudes are linear: for given sharpnesses they are the
 // nonnegative least squares of f itself, each entry weighted by
