@@ -1,0 +1,403 @@
+// Nodes, animations, skins, cameras, lights, materials of glTF files.
+#include "io/gltf_builder.h"
+#include "lobelia/io/image_io.h"
+
+namespace lobelia {
+namespace {
+
+using test::GltfBuilder;
+using test::kOneNode;
+
+class GltfScene : public test::GltfTest {
+ protected:
+  // The square with one material, given as the members of its object.
+  Scene withMaterial(const std::string& material, const std::string& more = "") {
+    return read(square_.json(kOneNode + GltfBuilder::squareMesh(R"("material":0)") +
+                             R"(,"materials":[{)" + material + "}]" + more));
+  }
+  const Material& inner(const Scene& s) {
+    const Material* m = &s[s.instances.at(0).material];
+    while (m->a.valid()) m = &s[m->a];
+    return *m;
+  }
+  Vec3f originOf(const Scene& s, size_t i = 0) { return s.instances.at(i).toWorld.point({}); }
+  GltfBuilder square_ = GltfBuilder::square();
+};
+
+TEST_F(GltfScene, NodesFormTrees) {
+  const std::string mesh = "," + GltfBuilder::squareMesh();
+  const Scene s = read(square_.json(
+      R"("nodes":[{"translation":[1,2,3],"children":[1]},)"
+      R"({"mesh":0,"rotation":[0,0,0.70710678,0.70710678],"scale":[2,2,2],"children":[2]},)"
+      R"({"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,5,1]},{"mesh":0}],)"
+      R"("scenes":[{"nodes":[3]},{"nodes":[0],"name":"second"}],"scene":1)" +
+      mesh));
+  ASSERT_EQ(s.instances.size(), 2u);
+  EXPECT_EQ(s.meshes.size(), 1u);
+  EXPECT_EQ(s.name, "second");
+  const Vec3f corner = s.instances[0].toWorld.point({1, 0, 0});
+  EXPECT_NEAR(corner.x, 1, 1e-5);
+  EXPECT_NEAR(corner.y, 4, 1e-5);
+  EXPECT_NEAR(originOf(s, 1).z, 13, 1e-5);
+  expectError(square_.json(R"("nodes":[{"children":[1]},{"children":[0]}])" + mesh),
+              "nodes[0].children", "descendant of itself");
+  expectError(square_.json(R"("nodes":[{"children":[2]},{"children":[2]},{}])" + mesh),
+              "nodes[1].children[0]", "parent already");
+  expectError(square_.json(R"("nodes":[{"children":[9]}])" + mesh), "nodes[0].children[0]",
+              "out of range");
+  expectError(square_.json(R"("nodes":[{"mesh":0,"scale":[1,"2",3]}])" + mesh), "nodes[0].scale[1]",
+              "number");
+  expectError(square_.json(R"("nodes":[{}],"scenes":[{"nodes":[0,0]}])" + mesh), "nodes[0]",
+              "more than once");
+  expectError(square_.json(R"("nodes":{"a":1})" + mesh), "nodes", "array");
+}
+
+TEST_F(GltfScene, ExtensionsRequiredAndUsed) {
+  const std::string scene = kOneNode + GltfBuilder::squareMesh();
+  expectError(square_.json(scene + R"(,"extensionsRequired":["KHR_materials_ir"])"),
+              "extensionsRequired[0]", "did you mean 'KHR_materials_ior'");
+  EXPECT_TRUE(warns(read(square_.json(scene + R"(,"extensionsUsed":["ACME_x"])")),
+                    "extensionsUsed[0]: extension 'ACME_x'"));
+  std::string old = square_.json(scene);
+  old.replace(old.find("2.0"), 3, "1.0");
+  expectError(old, "asset.version", "1.0");
+}
+
+TEST_F(GltfScene, AnimationsAtATime) {
+  GltfBuilder b = GltfBuilder::square();
+  b.accessor<float>({1, 2, 3}, "SCALAR", 1);                           // 4 times
+  b.accessor<float>({0, 0, 0, 10, 0, 0, 10, 20, 0}, "VEC3", 3);        // 5
+  b.accessor<float>({0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC4", 4);  // 6: half a turn, stays
+  b.accessor<float>({0, 0, 0, 0, 0, 0, 4, 0, 0,                        // 7: in, value, out
+                     4, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0},
+                    "VEC3", 3);
+  const auto text = [&](const std::string& path, int output, const std::string& mode) {
+    return b.json(kOneNode + GltfBuilder::squareMesh() +
+                  fmt::format(R"(,"animations":[{{"channels":[{{"sampler":0,"target":)"
+                              R"({{"node":0,"path":"{}"}}}}],"samplers":[{{"input":4,)"
+                              R"("output":{},"interpolation":"{}"}}]}}])",
+                              path, output, mode));
+  };
+  const auto at = [&](float time, const std::string& path, int output, const std::string& mode,
+                      Vec3f point = {}) {
+    io::ReadSettings settings;
+    settings.time = time;
+    return read(text(path, output, mode), settings).instances[0].toWorld.point(point);
+  };
+  EXPECT_EQ(at(0, "translation", 5, "LINEAR"), Vec3f(0, 0, 0));
+  EXPECT_EQ(at(1.5f, "translation", 5, "LINEAR"), Vec3f(5, 0, 0));
+  EXPECT_EQ(at(2.25f, "translation", 5, "LINEAR"), Vec3f(10, 5, 0));
+  EXPECT_EQ(at(9, "translation", 5, "LINEAR"), Vec3f(10, 20, 0));
+  EXPECT_EQ(at(1.99f, "translation", 5, "STEP"), Vec3f(0, 0, 0));
+  EXPECT_EQ(at(2, "translation", 5, "STEP"), Vec3f(10, 0, 0));
+  // Hermite with both tangents 4: 0 + (1/8) 4 + 1/2 - (1/8) 4
+  EXPECT_NEAR(at(1.5f, "translation", 7, "CUBICSPLINE").x, 0.5f, 1e-6f);
+  // (t^3 - 2 t^2 + t) 4 + (3 t^2 - 2 t^3) + (t^3 - t^2) 4 at t = 1/4
+  EXPECT_NEAR(at(1.25f, "translation", 7, "CUBICSPLINE").x,
+              4 * 0.140625f + 0.15625f - 4 * 0.046875f, 1e-6f);
+  const Vec3f turned = at(1.5f, "rotation", 6, "LINEAR", {1, 0, 0});  // a quarter about z
+  EXPECT_NEAR(turned.x, 0, 1e-6f);
+  EXPECT_NEAR(turned.y, 1, 1e-6f);
+  expectError(text("translation", 6, "LINEAR"), "animations[0].samplers[0].output", "VEC3");
+  expectError(text("translate", 5, "LINEAR"), "animations[0].channels[0].target.path",
+              "did you mean 'translation'");
+  expectError(text("translation", 5, "CUBICSPLINE"), "animations[0].samplers[0].output", "a key");
+}
+
+TEST_F(GltfScene, MorphTargets) {
+  GltfBuilder b = GltfBuilder::square();
+  b.accessor<float>({0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3", 3);  // 4
+  const std::string mesh = GltfBuilder::squareMesh(R"("targets":[{"POSITION":4}])");
+  const Scene rest = read(b.json(kOneNode + mesh));
+  EXPECT_EQ(rest.meshes[0].positions[0], Vec3f(0, 0, 0));
+  const Scene bent = read(b.json(R"("nodes":[{"mesh":0,"weights":[0.5]},{"mesh":0}],)" + mesh));
+  ASSERT_EQ(bent.instances.size(), 2u);
+  EXPECT_EQ(bent[bent.instances[0].mesh].positions[0], Vec3f(0, 0, 0.5f));
+  EXPECT_EQ(bent[bent.instances[1].mesh].positions[0], Vec3f(0, 0, 0));
+}
+
+TEST_F(GltfScene, SkinsPlaceVerticesByTheirJoints) {
+  GltfBuilder b = GltfBuilder::square();
+  b.accessor<uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, "VEC4", 4);      // 4
+  b.accessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0}, "VEC4", 4);  // 5
+  b.accessor<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,
+                     1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1},
+                    "MAT4", 16);                                                     // 6
+  b.accessor<uint8_t>({0, 0, 0, 0, 9, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, "VEC4", 4);  // 7
+  const auto text = [&](int joints) {
+    return b.json(
+        R"("nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},{"translation":[0,0,2]},)"
+        R"({"translation":[5,0,0]}],"skins":[{"joints":[1,2],"inverseBindMatrices":6}],)" +
+        fmt::format(R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,)"
+                    R"("JOINTS_0":{},"WEIGHTS_0":5}},"indices":3}}]}}])",
+                    joints));
+  };
+  const Scene s = read(text(4));
+  EXPECT_TRUE(s.instances[0].toWorld.to.isIdentity());
+  const std::vector<Vec3f>& p = s.meshes[0].positions;
+  EXPECT_EQ(p[0], Vec3f(0, 0, 2));
+  EXPECT_EQ(p[1], Vec3f(5, 0, 0));
+  EXPECT_EQ(p[3], Vec3f(2, 1, 1));
+  EXPECT_EQ(s.meshes[0].normals[3], Vec3f(0, 0, 1));
+  expectError(text(7), "meshes[0].primitives[0].attributes.JOINTS_0", "joint 9; the skin has 2");
+}
+
+TEST_F(GltfScene, GpuInstancingAndFlattenedNodes) {
+  GltfBuilder b = GltfBuilder::square();
+  b.accessor<float>({1, 0, 0, 2, 0, 0, 3, 0, 0}, "VEC3", 3);  // 4
+  b.accessor<float>({1, 1, 1, 2, 2, 2, 0, 0, 0}, "VEC3", 3);  // 5
+  const Scene s = read(
+      b.json(R"("nodes":[{"mesh":0,"translation":[0,7,0],"extensions":{"EXT_mesh_gpu_instancing":)"
+             R"({"attributes":{"TRANSLATION":4,"SCALE":5}}}}],)" +
+             GltfBuilder::squareMesh()));
+  ASSERT_EQ(s.instances.size(), 2u);
+  EXPECT_EQ(s.instances[1].toWorld.point({1, 0, 0}), Vec3f(4, 7, 0));
+  EXPECT_TRUE(finds(s, Severity::info, "nodes[0]: 1 instances are left out"));
+}
+
+TEST_F(GltfScene, CamerasLookAlongMinusZAndFollowTheirPath) {
+  GltfBuilder b = GltfBuilder::square();
+  b.accessor<float>({0, 2}, "SCALAR", 1);            // 4
+  b.accessor<float>({0, 0, 5, 0, 0, 9}, "VEC3", 3);  // 5
+  const Scene s = read(b.json(
+      R"("nodes":[{"mesh":0},{"camera":0,"scale":[3,3,3],"name":"eye"},{"camera":1}],)"
+      R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"aspectRatio":2,"znear":0.1}},)"
+      R"({"type":"orthographic","orthographic":{"xmag":2,"ymag":1,"znear":0,"zfar":9}}],)"
+      R"("animations":[{"channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}],)"
+      R"("samplers":[{"input":4,"output":5}]}],)" +
+      GltfBuilder::squareMesh()));
+  ASSERT_EQ(s.cameras.size(), 2u);
+  const Camera& c = s.cameras[0];
+  EXPECT_EQ(c.name, "eye");
+  EXPECT_EQ(c.width, 2 * c.height);
+  EXPECT_NEAR(std::tan(c.fovX / 2), 2 * std::tan(0.5), 1e-5);
+  const auto w = static_cast<float>(c.width), h = static_cast<float>(c.height);
+  const Ray middle = generateRay(c, {w / 2, h / 2}, {});
+  EXPECT_NEAR(middle.o.z, 5, 1e-5);
+  EXPECT_NEAR(middle.d.z, -1, 1e-6);
+  EXPECT_GT(generateRay(c, {w, h / 2}, {}).d.x, 0);
+  EXPECT_GT(generateRay(c, {w / 2, 0}, {}).d.y, 0);
+  ASSERT_EQ(c.path.size(), 2u);
+  EXPECT_EQ(c.path[1].time, 2);
+  EXPECT_NEAR(c.path[1].toWorld.point({}).z, 9, 1e-5);
+  EXPECT_NEAR(generateRay(s.cameras[1], {0, h / 2}, {}).o.x, -2, 1e-5);
+  EXPECT_TRUE(s.cameras[1].path.empty());
+}
+
+TEST_F(GltfScene, PunctualLights) {
+  const Scene s = read(
+      square_.json(R"("nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}},)"
+                   R"({"translation":[0,3,0],"extensions":{"KHR_lights_punctual":{"light":1}}},)"
+                   R"({"extensions":{"KHR_lights_punctual":{"light":2}}}],)"
+                   R"("extensions":{"KHR_lights_punctual":{"lights":[)"
+                   R"({"type":"directional","color":[1,0.5,0],"intensity":4},{"type":"point"},)"
+                   R"({"type":"spot","spot":{"innerConeAngle":0.1,"outerConeAngle":0.2}}]}},)" +
+                   GltfBuilder::squareMesh()));
+  ASSERT_EQ(s.emitters.size(), 3u);
+  EXPECT_EQ(s.emitters[0].type, EmitterType::directional);
+  EXPECT_EQ(s.emitters[0].radiance.value, Rgb(4, 2, 0));
+  EXPECT_NEAR(s.emitters[0].direction.z, -1, 1e-6);
+  EXPECT_EQ(s.emitters[1].toWorld.point({}), Vec3f(0, 3, 0));
+  EXPECT_NEAR(s.emitters[2].toWorld.vector({0, 0, 1}).z, -1, 1e-6);
+  EXPECT_FLOAT_EQ(s.emitters[2].cutoff, 0.2f);
+}
+
+TEST_F(GltfScene, MaterialFactors) {
+  const Scene s = withMaterial(
+      R"("pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,1],"metallicFactor":0.4,)"
+      R"("roughnessFactor":0.5},"extensions":{"KHR_materials_ior":{"ior":1.7},)"
+      R"("KHR_materials_specular":{"specularFactor":0.6,"specularColorFactor":[1,0.5,1]},)"
+      R"("KHR_materials_clearcoat":{"clearcoatFactor":0.7,"clearcoatRoughnessFactor":0.1},)"
+      R"("KHR_materials_sheen":{"sheenColorFactor":[0.2,0,0],"sheenRoughnessFactor":0.3},)"
+      R"("KHR_materials_anisotropy":{"anisotropyStrength":0.8,"anisotropyRotation":1}})");
+  const Material& m = inner(s);
+  EXPECT_EQ(s[s.instances[0].material].type, MaterialType::twoSided);
+  EXPECT_EQ(m.type, MaterialType::metallicRoughness);
+  EXPECT_EQ(m.diffuse.value, Rgb(0.1f, 0.2f, 0.3f));
+  EXPECT_FLOAT_EQ(m.metallic.value, 0.4f);
+  EXPECT_FLOAT_EQ(m.roughness.value, 0.5f);
+  EXPECT_FLOAT_EQ(m.ior, 1.7f);
+  EXPECT_FLOAT_EQ(m.specularStrength.value, 0.6f);
+  EXPECT_EQ(m.specular.value, Rgb(1, 0.5f, 1));
+  EXPECT_FLOAT_EQ(m.clearcoat.value, 0.7f);
+  EXPECT_FLOAT_EQ(m.clearcoatRoughness.value, 0.1f);
+  EXPECT_EQ(m.sheenColor.value, Rgb(0.2f, 0, 0));
+  EXPECT_FLOAT_EQ(m.sheenRoughness.value, 0.3f);
+  EXPECT_FLOAT_EQ(m.anisotropic.value, 0.8f);
+  EXPECT_FLOAT_EQ(m.anisotropicRotation.value, 1);  // the square's uv are not mirrored
+}
+
+TEST_F(GltfScene, GlassGlossinessUnlitAndEmission) {
+  const Scene glass =
+      withMaterial(R"("extensions":{"KHR_materials_transmission":{"transmissionFactor":1},)"
+                   R"("KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2,)"
+                   R"("attenuationColor":[0.5,1,1]}})");
+  EXPECT_EQ(inner(glass).specTrans.value, 1);
+  EXPECT_FALSE(inner(glass).thin);
+  EXPECT_NEAR(inner(glass).absorption.x, std::log(2.0) / 2, 1e-6);
+  EXPECT_TRUE(
+      inner(withMaterial(R"("extensions":{"KHR_materials_transmission":{"transmissionFactor":1}})"))
+          .thin);
+  const Scene glossy = withMaterial(
+      R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0.5,0,0,1],)"
+      R"("specularFactor":[0.2,0.2,0.2],"glossinessFactor":0.75}})");
+  EXPECT_TRUE(inner(glossy).isSpecularGlossiness);
+  EXPECT_FLOAT_EQ(inner(glossy).roughness.value, 0.25f);
+  EXPECT_EQ(inner(glossy).specular.value, Rgb(0.2f));
+  const Scene lamp =
+      withMaterial(R"("emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_emissive_strength":)"
+                   R"({"emissiveStrength":8}})");
+  ASSERT_EQ(lamp.emitters.size(), 1u);
+  EXPECT_EQ(lamp[lamp.instances[0].emitter].radiance.value, Rgb(8, 4, 0));
+  const Scene display = withMaterial(R"("emissiveFactor":[1,1,1])");
+  EXPECT_EQ(display.emitters.size(), 2u);  // and the studio
+  const Scene unlit = withMaterial(R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0,0,1]},)"
+                                   R"("extensions":{"KHR_materials_unlit":{}})");
+  EXPECT_EQ(unlit[unlit.instances[0].emitter].radiance.value, Rgb(0.5f, 0, 0));
+  EXPECT_EQ(inner(unlit).diffuse.value, Rgb(0.f));
+}
+
+TEST_F(GltfScene, AlphaModes) {
+  const std::string base = R"("pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.3]})";
+  EXPECT_EQ(withMaterial(base).materials.back().type, MaterialType::twoSided);
+  const Scene blend = withMaterial(base + R"(,"alphaMode":"BLEND")");
+  EXPECT_FLOAT_EQ(blend[blend.instances[0].material].opacity.value, 0.3f);
+  const Scene mask = withMaterial(base + R"(,"alphaMode":"MASK")");
+  EXPECT_EQ(mask[mask.instances[0].material].opacity.value, 0);
+  EXPECT_EQ(withMaterial(base + R"(,"alphaMode":"MASK","alphaCutoff":0.2)").materials.back().type,
+            MaterialType::twoSided);
+  const std::string message =
+      messageOf<InputError>([&] { withMaterial(base + R"(,"alphaMode":"MASKS")"); });
+  EXPECT_TRUE(contains(message, "materials[0].alphaMode: 'MASKS'")) << message;
+}
+
+TEST_F(GltfScene, TexturesFromMemoryWithTransformsAndChannels) {
+  // 2 x 1 pixels: (255, 128, 64) and (0, 255, 0), alpha 255 and 0.
+  io::writePng(folder.path("t.png"), {255, 128, 64, 255, 0, 255, 0, 0}, 2, 1, 4);
+  const std::vector<std::byte> png = [&] {
+    std::ifstream in(folder.path("t.png"), std::ios::binary);
+    const std::string s((std::istreambuf_iterator<char>(in)), {});
+    const auto* first = reinterpret_cast<const std::byte*>(s.data());
+    return std::vector<std::byte>(first, first + s.size());
+  }();
+  const size_t view = square_.view(png);
+  const Scene s = withMaterial(
+      R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicRoughnessTexture":)"
+      R"({"index":1,"extensions":{"KHR_texture_transform":{"offset":[0.5,0],"scale":[0.5,1]}}},)"
+      R"("roughnessFactor":0.5},"alphaMode":"MASK","normalTexture":{"index":1,"scale":0.5})",
+      fmt::format(R"(,"textures":[{{"source":0}},{{"source":1,"sampler":0}}],"samplers":)"
+                  R"([{{"magFilter":9728,"wrapS":33071,"wrapT":33071}}],"images":)"
+                  R"([{{"bufferView":{},"mimeType":"image/png"}},{{"uri":"t.png"}}])",
+                  view));
+  const Material& m = inner(s);
+  TextureContext left, right;
+  left.uv = {0.25f, 0.5f}, right.uv = {0.75f, 0.5f};
+  EXPECT_NEAR(evaluate(s, m.diffuse, left).y, 0.2158605f, 1e-5);  // 128 in sRGB
+  EXPECT_NEAR(evaluate(s, m.roughness, left), 0.5f, 1e-6);        // both at the right texel
+  EXPECT_NEAR(evaluate(s, m.metallic, left), 0, 1e-6);
+  const FloatParam& opacity = s[s.instances[0].material].opacity;
+  EXPECT_GE(evaluate(s, opacity, left), 1);
+  EXPECT_NEAR(evaluate(s, opacity, right), 0, 1e-6);
+  for (const Material& map : s.materials) {
+    if (map.type != MaterialType::normalMap) continue;
+    const Rgb n = evaluate(s, map.map, left);  // x scaled about 1/2, z as it is
+    EXPECT_NEAR(n.x, 0.75f, 1e-5);
+    EXPECT_NEAR(n.z, 64 / 255.f, 1e-5);
+  }
+}
+
+TEST_F(GltfScene, MirroredUvGetAMirroredNormalMap) {
+  io::writePng(folder.path("n.png"), {128, 255, 255}, 1, 1, 3);
+  GltfBuilder b = GltfBuilder::square();
+  b.accessor<float>({1, 1, 0, 1, 0, 0, 1, 0}, "VEC2", 2);  // 4: u runs to the left
+  const auto greenOf = [&](int uv, const std::string& node) {
+    const Scene s = read(
+        b.json("\"nodes\":[{\"mesh\":0" + node + "}]," +
+               fmt::format(R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,)"
+                           R"("TEXCOORD_0":{}}},"indices":3,"material":0}}]}}],)",
+                           uv) +
+               R"("materials":[{"normalTexture":{"index":0}}],"textures":[{"source":0}],)"
+               R"("images":[{"uri":"n.png"}])"));
+    const Material& map = s[s[s.instances.at(0).material].a];
+    EXPECT_EQ(map.type, MaterialType::normalMap);
+    return evaluate(s, map.map, TextureContext{}).y;
+  };
+  EXPECT_FLOAT_EQ(greenOf(2, ""), 1);
+  EXPECT_NEAR(greenOf(4, ""), 0, 1e-6);
+  EXPECT_NEAR(greenOf(2, R"(,"scale":[-1,1,1])"), 0, 1e-6);
+}
+
+TEST_F(GltfScene, VertexColoursAndSecondUvSet) {
+  GltfBuilder b = GltfBuilder::square();
+  b.accessor<uint8_t>({255, 0, 0, 255, 255, 0, 0, 51, 255, 0, 0, 255, 255, 0, 0, 255}, "VEC4", 4,
+                      R"("normalized":true)");
+  io::writePng(folder.path("t.png"), {255, 255, 255}, 1, 1, 3);
+  const Scene s = read(
+      b.json(kOneNode +
+             R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_1":2,"COLOR_0":4},)"
+             R"("indices":3,"material":0}]}],"textures":[{"source":0}],"images":[{"uri":"t.png"}],)"
+             R"("materials":[{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":)"
+             R"({"index":0,"texCoord":1}}}])"));
+  EXPECT_EQ(s.meshes[0].uvs[0], Vec2f(0, 1));
+  TextureContext at;
+  at.mesh = &s.meshes[0];
+  at.barycentrics = {1, 0};
+  EXPECT_EQ(evaluate(s, inner(s).diffuse, at), Rgb(1, 0, 0));
+  EXPECT_NEAR(evaluate(s, s[s.instances[0].material].opacity, at), 0.2f, 1e-6);
+}
+
+TEST_F(GltfScene, Variants) {
+  const std::string text = square_.json(
+      kOneNode +
+      GltfBuilder::squareMesh(R"("material":0,"extensions":{"KHR_materials_variants":{"mappings":)"
+                              R"([{"material":1,"variants":[1]}]}})") +
+      R"(,"materials":[{"name":"plain"},{"name":"fancy"}],"extensions":)"
+      R"({"KHR_materials_variants":{"variants":[{"name":"day"},{"name":"night"}]}})");
+  io::ReadSettings settings;
+  EXPECT_EQ(inner(read(text)).name, "plain");
+  settings.variant = "night";
+  EXPECT_EQ(inner(read(text, settings)).name, "fancy");
+  settings.variant = "day";
+  EXPECT_EQ(inner(read(text, settings)).name, "plain");
+  settings.variant = "nigth";
+  const std::string message = messageOf<InputError>([&] { read(text, settings); });
+  EXPECT_TRUE(contains(message, "did you mean 'night'")) << message;
+}
+
+TEST_F(GltfScene, ViewAndLightAreAdded) {
+  const Scene s = read(square_.json(kOneNode + GltfBuilder::squareMesh()));
+  ASSERT_EQ(s.cameras.size(), 1u);
+  ASSERT_EQ(s.emitters.size(), 1u);
+  EXPECT_EQ(s.emitters[0].type, EmitterType::environment);
+  EXPECT_TRUE(finds(s, Severity::info, "there is no camera"));
+  EXPECT_TRUE(finds(s, Severity::info, "nothing shines"));
+  for (const Vec3f p : s.meshes[0].positions) {
+    FilmConnection on;
+    EXPECT_TRUE(connectToCamera(s.cameras[0], p, {}, &on));
+  }
+}
+
+TEST_F(GltfScene, BareMeshWithMtl) {
+  io::writePng(folder.path("k.png"), {255, 0, 0}, 1, 1, 3);
+  folder.write("m.mtl",
+               "newmtl red\nKd 1 1 1\nmap_Kd k.png\nNs 98\nKs 0.5 0.5 0.5\n"
+               "newmtl lamp\nKd 0 0 0\nKe 3 2 1\nnewmtl metal\nKd 0.5 0.5 0.5\nPm 1\nPr 0.25\n");
+  Context context;
+  const Scene s = io::readScene(
+      folder.write("m.obj",
+                   "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl lamp\n"
+                   "f 3 2 1\nusemtl metal\nf 1 3 2\nusemtl none\nf 2 1 3\n"),
+      {}, context);
+  ASSERT_EQ(s.instances.size(), 4u);
+  const auto material = [&](size_t i) { return s[s[s.instances[i].material].a]; };
+  EXPECT_EQ(evaluate(s, material(0).diffuse, TextureContext{}), Rgb(1, 0, 0));
+  EXPECT_NEAR(material(0).roughness.value * material(0).roughness.value, std::sqrt(0.02), 1e-6);
+  EXPECT_EQ(s[s.instances[1].emitter].radiance.value, Rgb(3, 2, 1));
+  EXPECT_EQ(material(2).metallic.value, 1);
+  EXPECT_EQ(material(2).roughness.value, 0.25f);
+  EXPECT_TRUE(warns(s, "no MTL file has the material 'none'"));
+  EXPECT_EQ(s.cameras.size(), 1u);
+}
+
+}  // namespace
+}  // namespace lobelia
