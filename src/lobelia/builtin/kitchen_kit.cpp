@@ -13,7 +13,13 @@ namespace {
 
 // So that detail 1 makes the 180,000 triangles of [P000].
 constexpr float kFineness = 0.62f;
-constexpr int kLarge = 1024, kSmall = 512;
+
+// Pixels of a texture of which there are `most` from detail 1/2 on; coarse scenes have coarse ones.
+int pixels(float detail, int most) {
+  int size = most;
+  for (float d = detail; d < 0.5f && size > most / 8; d *= 2) size /= 2;
+  return size;
+}
 
 Material twoSided(MaterialHandle front) {
   Material m;
@@ -25,7 +31,10 @@ Material twoSided(MaterialHandle front) {
 }  // namespace
 
 KitchenKit::KitchenKit(float detail, KitchenLighting lighting)
-    : SceneBuilder(detail * kFineness), lighting_(lighting) {
+    : SceneBuilder(detail * kFineness),
+      lighting_(lighting),
+      large_(pixels(detail, 1024)),
+      small_(large_ / 2) {
   addMetals();
   addMinerals();
   addWoodsAndPaints();
@@ -35,8 +44,8 @@ KitchenKit::KitchenKit(float detail, KitchenLighting lighting)
 void KitchenKit::addMetals() {
   KitchenPalette& m = palette_;
   // Brushed along u: smooth along the grooves, rough across.
-  const TextureHandle along = addBitmap(brushed(0.10f, 0.03f, kSmall, 1)),
-                      across = addBitmap(brushed(0.30f, 0.09f, kSmall, 2));
+  const TextureHandle along = addBitmap(brushed(0.10f, 0.03f, small_, 1)),
+                      across = addBitmap(brushed(0.30f, 0.09f, small_, 2));
   m.steel = add(metal(kSteel, along, across), "brushed steel");
   m.steelUpright = add(metal(kSteel, across, along), "brushed steel, upright");
   m.steelDark = add(metal(kSteel, 0.25f), "steel");
@@ -56,7 +65,7 @@ void KitchenKit::addMinerals() {
   floor.groutWidth = 0.016f, floor.edge = 0.012f;
   floor.toneSpread = 0.10f, floor.mottle = 0.16f;
   floor.roughness = 0.14f, floor.roughnessSpread = 0.05f;
-  const SurfaceImages floorImages = tiles(floor, kLarge);
+  const SurfaceImages floorImages = tiles(floor, large_);
   const Vec2f floorScale{1 / 1.6f, 1 / 1.6f};  // tiles of 40 cm
   m.floor = addBumped(coated(addBitmap(floorImages.color, floorScale),
                              addBitmap(floorImages.roughness, floorScale)),
@@ -67,13 +76,15 @@ void KitchenKit::addMinerals() {
   wall.groutWidth = 0.045f, wall.edge = 0.09f;
   wall.toneSpread = 0.045f, wall.mottle = 0.03f;
   wall.roughness = 0.09f, wall.roughnessSpread = 0.03f;
-  const SurfaceImages wallImages = tiles(wall, kLarge);
+  const SurfaceImages wallImages = tiles(wall, large_);
   const Vec2f wallScale{1 / 0.9f, 1 / 0.9f};  // tiles of 15 x 7.5 cm
   m.wallTiles = addBumped(
       coated(addBitmap(wallImages.color, wallScale), addBitmap(wallImages.roughness, wallScale)),
       addBitmap(wallImages.height, wallScale), 0.0025f, "wall tiles");
-  m.marble =
-      add(phong(addBitmap(marble({}, kLarge), {1 / 1.3f, 1 / 1.3f}), Rgb(0.10f), 150.f), "marble");
+  Marble counter;
+  counter.vein = {0.16f, 0.165f, 0.18f}, counter.sharpness = 2.2f;
+  m.marble = add(phong(addBitmap(marble(counter, large_), {1 / 1.3f, 1 / 1.3f}), Rgb(0.10f), 150.f),
+                 "marble");
   m.porcelain = add(phong(Rgb(0.74f, 0.73f, 0.69f), Rgb(0.10f), 200.f), "porcelain");
   m.blueGlaze = add(phong(Rgb(0.045f, 0.12f, 0.22f), Rgb(0.12f), 180.f), "blue glaze");
   m.clay = add(phong(Rgb(0.42f, 0.17f, 0.085f), Rgb(0.03f), 20.f), "terracotta");
@@ -91,7 +102,7 @@ void KitchenKit::addWoodsAndPaints() {
   const auto board = [&](Rgb light, Rgb dark, uint64_t seed) {
     Wood w;
     w.light = light, w.dark = dark, w.planks = 1, w.seed = seed;
-    return addBitmap(wood(w, kSmall).color, {1 / 0.7f, 1 / 0.35f});
+    return addBitmap(wood(w, small_).color, {1 / 0.7f, 1 / 0.35f});
   };
   m.oak =
       add(phong(board({0.46f, 0.28f, 0.13f}, {0.27f, 0.145f, 0.06f}, 3), Rgb(0.05f), 40.f), "oak");
@@ -105,13 +116,13 @@ void KitchenKit::addWoodsAndPaints() {
   m.carcass = add(diffuse(Rgb(0.06f)), "carcass");
   m.black = add(diffuse(Rgb(0.03f)), "matt black");
   m.bulb = add(diffuse(Rgb(0.5f)), "lamp glass");
-  const SurfaceImages weave = fabric({0.66f, 0.62f, 0.52f}, {0.60f, 0.55f, 0.45f}, 48, kSmall, 4);
+  const SurfaceImages weave = fabric({0.66f, 0.62f, 0.52f}, {0.60f, 0.55f, 0.45f}, 48, small_, 4);
   m.curtain = add(twoSided(add(diffuse(addBitmap(weave.color, {4, 4})), "linen, front")), "linen");
   const TextureHandle stripe =
-      addBitmap(stripes({0.70f, 0.67f, 0.60f}, {0.06f, 0.14f, 0.22f}, 6, 0.7f, kSmall), {2, 2});
+      addBitmap(stripes({0.70f, 0.67f, 0.60f}, {0.06f, 0.14f, 0.22f}, 6, 0.7f, small_), {2, 2});
   m.cloth = add(twoSided(add(diffuse(stripe), "tea towel, front")), "tea towel");
   m.paper = add(
-      diffuse(addBitmap(marble({{0.50f, 0.36f, 0.20f}, {0.10f, 0.16f, 0.22f}, 2, 1, 9}, kSmall))),
+      diffuse(addBitmap(marble({{0.50f, 0.36f, 0.20f}, {0.10f, 0.16f, 0.22f}, 2, 1, 9}, small_))),
       "print");
 }
 
@@ -123,11 +134,12 @@ void KitchenKit::addFood() {
   m.orange = skin({0.72f, 0.25f, 0.025f}, Rgb(0.05f), 30.f, "orange");
   m.lemon = skin({0.75f, 0.55f, 0.05f}, Rgb(0.05f), 30.f, "lemon");
   Marble stripesOfApple{{0.45f, 0.045f, 0.03f}, {0.52f, 0.33f, 0.06f}, 3, 1.2f, 11};
-  m.apple = add(phong(addBitmap(marble(stripesOfApple, 256), {2, 1}), Rgb(0.08f), 90.f), "apple");
+  m.apple =
+      add(phong(addBitmap(marble(stripesOfApple, small_ / 2), {2, 1}), Rgb(0.08f), 90.f), "apple");
   m.pear = skin({0.42f, 0.44f, 0.07f}, Rgb(0.05f), 40.f, "pear");
   m.stalk = add(diffuse(Rgb(0.09f, 0.05f, 0.025f)), "stalk");
   m.bread = add(diffuse(addBitmap(
-                    marble({{0.42f, 0.20f, 0.07f}, {0.62f, 0.45f, 0.25f}, 6, 1.2f, 21}, kSmall))),
+                    marble({{0.42f, 0.20f, 0.07f}, {0.62f, 0.45f, 0.25f}, 6, 1.2f, 21}, small_))),
                 "crust");
   m.pasta = skin({0.62f, 0.42f, 0.14f}, Rgb(0.02f), 20.f, "pasta");
   m.coffee = skin({0.06f, 0.028f, 0.014f}, Rgb(0.05f), 40.f, "coffee beans");

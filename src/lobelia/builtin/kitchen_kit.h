@@ -44,6 +44,7 @@ class KitchenKit : public SceneBuilder {
 
   KitchenPalette palette_;
   KitchenLighting lighting_;
+  int large_, small_;  // pixels of textures
   std::map<std::string, int> names_;
 };
 

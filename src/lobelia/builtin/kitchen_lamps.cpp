@@ -24,7 +24,7 @@ float smoothstep(float low, float high, float x) {
 
 // A sky that brightens to the horizon, soft clouds, hills and a meadow; horizon at the middle row.
 Image skyImage(Rgb zenith, Rgb horizon, Rgb cloud, Rgb ground) {
-  constexpr int kRows = 128;
+  constexpr int kRows = 256;
   Image image;
   image.width = 2 * kRows, image.height = kRows;
   for (int y = 0; y < kRows; ++y)
@@ -33,13 +33,20 @@ Image skyImage(Rgb zenith, Rgb horizon, Rgb cloud, Rgb ground) {
       const float theta = kPi * (static_cast<float>(y) + 0.5f) / kRows;
       const Vec3f d{std::sin(theta) * std::cos(phi), std::cos(theta),
                     std::sin(theta) * std::sin(phi)};
-      const float hills = 0.05f + 0.05f * fbm(Vec3f(d.x * 4, 0, d.z * 4), 4, 3);
+      // Hills far away, a row of trees before them.
+      const Vec3f around{d.x, 0, d.z};
+      const float hills = 0.045f + 0.05f * fbm(around * 4.f, 4, 3);
+      const float trees = 0.01f + 0.07f * std::max(0.f, fbm(around * 14.f, 5, 11, 0.65f) + 0.15f);
       const float up = std::max(d.y, 0.f);
       const Rgb sky = lerp(horizon, zenith, std::pow(up, 0.55f));
       const float cover = smoothstep(0.0f, 0.45f, fbm(Vec3f(d.x, 2.5f * d.y, d.z) * 3.f, 5, 8));
       Rgb c = lerp(sky, cloud, 0.75f * cover * smoothstep(0.02f, 0.2f, up));
-      const float tree = 0.7f + 0.5f * fbm(d * 24.f, 3, 5);
-      c = lerp(c, ground * tree, 1 - smoothstep(hills - 0.01f, hills + 0.01f, d.y));
+      const Rgb far = lerp(ground, horizon * 0.5f, 0.35f), grove = ground * 0.45f;
+      const float rough = 0.75f + 0.5f * fbm(d * 24.f, 4, 5);
+      const float pixel = 0.6f * kPi / kRows;
+      c = lerp(c, far * rough, smoothstep(-pixel, pixel, hills - d.y));
+      c = lerp(c, grove * rough, smoothstep(-pixel, pixel, trees - d.y));
+      c = lerp(c, ground * (1.1f * rough), smoothstep(-pixel, pixel, -0.02f - d.y));
       for (int k = 0; k < 3; ++k) image.pixels.push_back(c[k]);
     }
   return image;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lobelia/base/parallel.h"
 #include "lobelia/builtin/noise.h"
 #include "lobelia/io/image_pixels.h"
 
@@ -18,19 +19,22 @@ float nearest(const std::vector<float>& table, float v) {
 
 template <class F>
 void fill(Image& image, const std::vector<float>& table, const F& f) {
-  for (int y = 0; y < image.height; ++y)
+  const auto width = static_cast<size_t>(image.width),
+             channels = static_cast<size_t>(image.channels);
+  image.pixels.resize(width * static_cast<size_t>(image.height) * channels);
+  parallelFor(static_cast<size_t>(image.height), 16, [&](size_t y) {
+    float* pixel = &image.pixels[y * width * channels];
     for (int x = 0; x < image.width; ++x) {
       const Rgb c = f(Vec2f((static_cast<float>(x) + 0.5f) / static_cast<float>(image.width),
                             (static_cast<float>(y) + 0.5f) / static_cast<float>(image.height)));
-      for (int k = 0; k < image.channels; ++k) image.pixels.push_back(nearest(table, c[k]));
+      for (int k = 0; k < image.channels; ++k) *pixel++ = nearest(table, c[k]);
     }
+  });
 }
 
 Image empty(int width, int height, int channels) {
   Image image;
   image.width = width, image.height = height, image.channels = channels;
-  image.pixels.reserve(static_cast<size_t>(width) * static_cast<size_t>(height) *
-                       static_cast<size_t>(channels));
   return image;
 }
 
