@@ -300,7 +300,7 @@ TEST_F(GltfScene, TexturesFromMemoryWithTransformsAndChannels) {
   EXPECT_NEAR(evaluate(s, opacity, right), 0, 1e-6);
   for (const Material& map : s.materials) {
     if (map.type != MaterialType::normalMap) continue;
-    const Rgb n = evaluate(s, map.map, left);  // x scaled about 1/2, z as it is
+    const Rgb n = evaluate(s, map.map, left);  // x, y halved about 1/2, z as it is
     EXPECT_NEAR(n.x, 0.75f, 1e-5);
     EXPECT_NEAR(n.z, 64 / 255.f, 1e-5);
   }

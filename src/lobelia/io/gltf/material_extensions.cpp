@@ -90,14 +90,9 @@ void Materials::addAnisotropy(const Source& from, Material& material) {
   const auto rotation = static_cast<float>(anisotropy["anisotropyRotation"].number(0));
   material.anisotropicRotation = from.use.mirrored ? -rotation : rotation;
   const TextureHandle direction = texture(from, anisotropy["anisotropyTexture"], true);
-  if (!direction.valid() || !from.use.mirrored) {
-    material.anisotropicDirection = direction;
-    return;
-  }
   // y of the direction turned over, as in normalTexture().
   material.anisotropicDirection =
-      textures_.mix(textures_.product(direction, textures_.constant({2, -2, 2})),
-                    textures_.constant({0, 2, 0}), textures_.constant(Rgb(0.5f)));
+      direction.valid() && from.use.mirrored ? textures_.turned(direction, {0, 1, 0}) : direction;
 }
 
 void Materials::addTransmission(const Source& from, Material& material) {

@@ -208,15 +208,19 @@ std::optional<ColorParam> Materials::emission(const Source& from, const Material
                          texture(from, from.json["emissiveTexture"], false));
 }
 
-// The map with its x and y scaled and, where uv are mirrored, y turned over:
-// n' = k n + (1 - k) / 2 for stored values, k = (s, +-s, 1).
+// The map with its x and y scaled and, where uv are mirrored, y turned over. Only the direction
+// counts: instead of x and y growing, z shrinks; so all values stay in [0,1] and a file can hold
+// them.
 TextureHandle Materials::normalTexture(const Source& from, const Json& info) {
-  const TextureHandle map = texture(from, info, true);
-  const auto s = static_cast<float>(info["scale"].number(1));
-  const Rgb k{s, from.use.mirrored ? -s : s, 1};
-  if (!map.valid() || k == Rgb(1.f)) return map;
-  return textures_.mix(textures_.product(map, textures_.constant(k * 2.f)),
-                       textures_.constant(Rgb(1.f) - k), textures_.constant(Rgb(0.5f)));
+  TextureHandle map = texture(from, info, true);
+  const auto scale = static_cast<float>(info["scale"].number(1));
+  if (!map.valid()) return map;
+  const bool negative = scale < 0;
+  map = textures_.turned(map, {negative ? 1.f : 0.f, negative != from.use.mirrored ? 1.f : 0.f, 0});
+  const float s = std::abs(scale);
+  if (s == 1) return map;
+  const Rgb towardsZero = s < 1 ? Rgb(1 - s, 1 - s, 0) : Rgb(0, 0, 1 - 1 / s);
+  return textures_.mix(map, textures_.constant(Rgb(0.5f)), textures_.constant(towardsZero));
 }
 
 }  // namespace lobelia::io::gltf

@@ -146,6 +146,11 @@ TextureHandle Textures::mix(TextureHandle a, TextureHandle b, TextureHandle amou
   return add(texture);
 }
 
+TextureHandle Textures::turned(TextureHandle a, Rgb which) {
+  if (which == Rgb(0.f)) return a;
+  return mix(a, mix(constant(Rgb(1.f)), constant(Rgb(0.f)), a), constant(which));
+}
+
 ColorParam Textures::color(Rgb factor, TextureHandle texture) {
   if (!texture.valid() || factor == Rgb(0.f)) return factor;
   return scaled(texture, factor);

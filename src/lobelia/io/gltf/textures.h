@@ -35,6 +35,8 @@ class Textures {
   TextureHandle scaled(TextureHandle a, Rgb factor);
   // (1 - amount) a + amount b
   TextureHandle mix(TextureHandle a, TextureHandle b, TextureHandle amount);
+  // 1 - a in the channels that `which` marks by a 1.
+  TextureHandle turned(TextureHandle a, Rgb which);
   ColorParam color(Rgb factor, TextureHandle texture);
   FloatParam number(double factor, TextureHandle texture);
 
