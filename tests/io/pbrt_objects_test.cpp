@@ -1,0 +1,605 @@
+// PBRT files: shapes, materials, textures, lights.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/pbrt_scene.h"
+#include "lobelia/base/random.h"
+#include "lobelia/io/image_io.h"
+#include "lobelia/io/mesh_io.h"
+#include "lobelia/io/pbrt/octahedral.h"
+#include "lobelia/io/pbrt/tessellation.h"
+
+namespace lobelia::test {
+namespace {
+
+constexpr const char* kTriangle = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n";
+
+const Mesh& onlyMesh(const Scene& scene) { return scene[scene.instances.at(0).mesh]; }
+
+double areaOf(const Mesh& mesh) {
+  double area = 0;
+  for (const Vec3u t : mesh.triangles)
+    area += 0.5 * static_cast<double>(length(cross(mesh.positions[t.y] - mesh.positions[t.x],
+                                                   mesh.positions[t.z] - mesh.positions[t.x])));
+  return area;
+}
+
+// All triangles turn with their vertex normals.
+void expectConsistent(const Mesh& mesh) {
+  ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+  for (const Vec3u t : mesh.triangles) {
+    const Vec3f n =
+        cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
+    EXPECT_GT(dot(n, mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z]), 0);
+  }
+}
+
+void expectNear(Vec3f a, Vec3f b, float tolerance = 1e-4f) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
+}
+
+TEST(PbrtShapes, RoundOnes) {
+  const Scene whole = readPbrtWorld("Shape \"sphere\" \"float radius\" 2");
+  EXPECT_TRUE(onlyMesh(whole).isUnitSphere);
+  EXPECT_NEAR(whole.instances[0].toWorld.vector({0, 0, 1}).z, 2, 1e-6);
+  const Mesh& unit = onlyMesh(whole);
+  for (size_t i = 0; i < unit.positions.size(); ++i)
+    EXPECT_NEAR(unit.uvs[i].y, 1 - std::acos(std::clamp(unit.positions[i].z, -1.f, 1.f)) / kPi,
+                1e-3f);
+
+  const Mesh cap =
+      onlyMesh(readPbrtWorld("Shape \"sphere\" \"float radius\" 2 \"float zmin\" 0 "
+                             "\"float phimax\" 180"));
+  EXPECT_NEAR(areaOf(cap), 2 * M_PI * 2 * 2 / 2, 0.01);
+  expectConsistent(cap);
+  const Mesh disk =
+      onlyMesh(readPbrtWorld("Shape \"disk\" \"float radius\" 2 \"float innerradius\" "
+                             "1 \"float height\" 3"));
+  EXPECT_NEAR(areaOf(disk), 3 * M_PI, 0.01);
+  EXPECT_FLOAT_EQ(disk.positions[0].z, 3);
+  expectConsistent(disk);
+  const Mesh tube =
+      onlyMesh(readPbrtWorld("Shape \"cylinder\" \"float radius\" 1 \"float zmin\" -1 "
+                             "\"float zmax\" 2 \"float phimax\" 90"));
+  EXPECT_NEAR(areaOf(tube), 3 * M_PI / 2, 0.01);
+  expectConsistent(tube);
+}
+
+TEST(PbrtShapes, Meshes) {
+  const Mesh triangle = onlyMesh(readPbrtWorld(kTriangle));
+  EXPECT_EQ(triangle.triangles.size(), 1u);
+  EXPECT_TRUE(triangle.normals.empty());  // flat
+  const Mesh quad = onlyMesh(
+      readPbrtWorld("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 0] \"integer "
+                    "indices\" [0 1 2 0 2 "
+                    "3] \"normal N\" [0 0 1 0 0 1 0 0 1 0 0 1] \"point2 uv\" [0 0 1 0 1 1 0 1]"));
+  EXPECT_EQ(quad.triangles.size(), 2u);
+  EXPECT_EQ(quad.normals.size(), 4u);
+  EXPECT_FLOAT_EQ(quad.uvs[2].y, 1);
+  const Mesh flat =
+      onlyMesh(readPbrtWorld("Shape \"bilinearmesh\" \"point3 P\" [0 0 0 2 0 0 0 1 0 2 1 0]"));
+  EXPECT_EQ(flat.triangles.size(), 2u);
+  expectConsistent(flat);
+  EXPECT_GT(flat.normals[0].z, 0.9f);
+  const Mesh saddle =
+      onlyMesh(readPbrtWorld("Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 1 0 1 1 1 1 0]"));
+  EXPECT_GT(saddle.triangles.size(), 100u);
+  // Area of z = x + y - 2 x y over the unit square by midpoints.
+  double area = 0;
+  constexpr int kN = 200;
+  for (int i = 0; i < kN * kN; ++i) {
+    const double x = (i % kN + .5) / kN, y = (i / kN + .5) / kN;
+    area += std::sqrt(1 + (1 - 2 * y) * (1 - 2 * y) + (1 - 2 * x) * (1 - 2 * x)) / (kN * kN);
+  }
+  EXPECT_NEAR(areaOf(saddle), area, 2e-3);
+  EXPECT_TRUE(contains(pbrtRefusal("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] "
+                                   "\"integer indices\" [0 1 7]"),
+                       "there are 3 points"));
+  EXPECT_TRUE(
+      contains(pbrtRefusal("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1]"), "multiple of 3"));
+  EXPECT_TRUE(contains(pbrtRefusal("Shape \"trianglemesh\""), "no 'point3 P'"));
+  EXPECT_TRUE(contains(pbrtRefusal("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] "
+                                   "\"point2 uv\" [0 0]"),
+                       "1 values of 'uv' for 3 vertices"));
+  EXPECT_TRUE(contains(pbrtRefusal("Shape \"plymesh\""), "no filename"));
+  EXPECT_TRUE(contains(findingsOf(readPbrtWorld("Shape \"curve\" \"float width\" 1")), "curve"));
+}
+
+TEST(PbrtShapes, PlyMeshesAreSharedAndFlatWithoutNormals) {
+  const TemporaryFolder folder;
+  folder.write("t.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const Scene scene = readPbrtText(folder,
+                                   "WorldBegin Shape \"plymesh\" \"string filename\" "
+                                   "\"t.ply\" Shape \"plymesh\" \"string filename\" "
+                                   "\"t.ply\"");
+  EXPECT_EQ(scene.instances.size(), 2u);
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  EXPECT_TRUE(onlyMesh(scene).normals.empty());
+  folder.write("bad.ply", "ply\nformat ascii 1.0\nend_header\n");
+  EXPECT_TRUE(contains(
+      messageOf<InputError>([&] {
+        readPbrtText(folder, "WorldBegin Shape \"plymesh\" \"string filename\" \"bad.ply\"");
+      }),
+      "bad.ply"));
+}
+
+// An octahedron's limit surface: the control points' limit lies on the axes at the distance that
+// the mask 1 / (n + 3 / (8 beta)) gives, 2/3 of the vertex and none of the ring.
+TEST(PbrtShapes, LoopSubdivisionReachesTheLimit) {
+  Mesh octahedron;
+  octahedron.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (const uint32_t x : {0u, 1u})
+    for (const uint32_t y : {2u, 3u})
+      for (const uint32_t z : {4u, 5u}) {
+        const bool turn = ((x & 1u) + (y & 1u) + (z & 1u)) % 2 == 1;
+        octahedron.triangles.push_back(turn ? Vec3u(x, z, y) : Vec3u(x, y, z));
+      }
+  for (int levels = 0; levels <= 3; ++levels) {
+    const Mesh fine = io::pbrt::subdivideLoop(octahedron, levels);
+    EXPECT_EQ(fine.triangles.size(), size_t{8} << (2 * levels));
+    // valence 4: beta = 3/32, weight of the ring 1 / (4 + 4) each, of the vertex 1 - 4/8.
+    expectNear(fine.positions[0], {0.5f, 0, 0}, 1e-5f);
+    expectConsistent(fine);
+  }
+  // A flat square stays flat, its boundary in the plane.
+  const Mesh square = onlyMesh(readPbrtWorld(
+      "Shape \"loopsubdiv\" \"integer levels\" 2 \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 0] "
+      "\"integer indices\" [0 1 2 0 2 3]"));
+  EXPECT_EQ(square.triangles.size(), 32u);
+  for (const Vec3f& p : square.positions) EXPECT_EQ(p.z, 0);
+  EXPECT_TRUE(
+      contains(pbrtRefusal("Shape \"loopsubdiv\" \"integer levels\" 99 \"point3 P\" [0 0 0 1 "
+                           "0 0 1 1 0] \"integer indices\" [0 1 2]"),
+               "levels"));
+}
+
+Scene withMaterial(const std::string& text) { return readPbrtWorld(text + kTriangle); }
+
+TEST(PbrtMaterials, EveryKind) {
+  const auto typeOf = [](const std::string& text) { return onlyMaterial(withMaterial(text)).type; };
+  EXPECT_EQ(typeOf(""), MaterialType::diffuse);
+  EXPECT_EQ(typeOf("Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3] "), MaterialType::diffuse);
+  EXPECT_EQ(typeOf("Material \"coateddiffuse\" "), MaterialType::plastic);
+  EXPECT_EQ(typeOf("Material \"coateddiffuse\" \"float roughness\" .1 "),
+            MaterialType::roughPlastic);
+  EXPECT_EQ(typeOf("Material \"conductor\" "), MaterialType::conductor);
+  EXPECT_EQ(typeOf("Material \"conductor\" \"float roughness\" .1 "), MaterialType::roughConductor);
+  EXPECT_EQ(typeOf("Material \"coatedconductor\" "), MaterialType::coatedConductor);
+  EXPECT_EQ(typeOf("Material \"dielectric\" "), MaterialType::dielectric);
+  EXPECT_EQ(typeOf("Material \"dielectric\" \"float roughness\" .1 "),
+            MaterialType::roughDielectric);
+  EXPECT_EQ(typeOf("Material \"thindielectric\" "), MaterialType::thinDielectric);
+  EXPECT_EQ(typeOf("Material \"diffusetransmission\" "), MaterialType::blend);
+  EXPECT_EQ(typeOf("Material \"interface\" "), MaterialType::null);
+  for (const char* type : {"hair", "subsurface", "measured"})
+    EXPECT_TRUE(contains(findingsOf(withMaterial(std::string("Material \"") + type + "\" ")),
+                         "stands for it"));
+  EXPECT_TRUE(contains(pbrtRefusal("Material \"difuse\""), "did you mean 'diffuse'?"));
+  EXPECT_TRUE(contains(pbrtRefusal("Material \"diffuse\" \"rgb reflectance\" [1 2]"), "takes 3"));
+  EXPECT_TRUE(
+      contains(pbrtRefusal("Material \"diffuse\" \"rgb reflectance\" [1 -2 0]"), "0 or more"));
+}
+
+TEST(PbrtMaterials, Parameters) {
+  const Material rough =
+      onlyMaterial(withMaterial("Material \"conductor\" \"float roughness\" .25 "));
+  EXPECT_FLOAT_EQ(rough.alphaU.value, 0.5f);  // remapped
+  const Material plain = onlyMaterial(withMaterial(
+      "Material \"conductor\" \"float uroughness\" .25 \"float vroughness\" .1 "
+      "\"bool remaproughness\" false \"spectrum eta\" \"metal-Ag-eta\" \"rgb k\" [3 2 1] "));
+  EXPECT_FLOAT_EQ(plain.alphaU.value, 0.25f);
+  EXPECT_FLOAT_EQ(plain.alphaV.value, 0.1f);
+  EXPECT_EQ(plain.distribution, Distribution::ggx);
+  EXPECT_NEAR(plain.eta.value.x, 0.155265f, 1e-5f);
+  EXPECT_EQ(plain.k.value, Rgb(3, 2, 1));
+  // Reflectance at normal incidence of eta = 1 and k is k^2 / (4 + k^2).
+  const Material mirror =
+      onlyMaterial(withMaterial("Material \"conductor\" \"rgb reflectance\" [.9 .5 .1] "));
+  for (int i = 0; i < 3; ++i) {
+    const float k2 = mirror.k.value[i] * mirror.k.value[i];
+    EXPECT_NEAR(k2 / (4 + k2), Rgb(.9f, .5f, .1f)[i], 1e-5f);
+  }
+  EXPECT_FLOAT_EQ(onlyMaterial(withMaterial("Material \"dielectric\" \"spectrum eta\" "
+                                            "\"glass-BK7\" "))
+                      .ior,
+                  1.5168f);
+  EXPECT_NEAR(
+      onlyMaterial(withMaterial("Material \"dielectric\" \"spectrum eta\" [300 1.4 900 1.4] ")).ior,
+      1.4f, 1e-4f);
+  const Material coat = onlyMaterial(withMaterial(
+      "Material \"coatedconductor\" \"float interface.roughness\" .04 \"float interface.eta\" 1.4 "
+      "\"float conductor.roughness\" .09 "));
+  EXPECT_FLOAT_EQ(coat.coatAlphaU.value, 0.2f);
+  EXPECT_FLOAT_EQ(coat.coatIor, 1.4f);
+  EXPECT_FLOAT_EQ(coat.alphaU.value, 0.3f);
+  EXPECT_TRUE(
+      contains(findingsOf(withMaterial("Material \"coateddiffuse\" \"float g\" .5 ")), "'g'"));
+  EXPECT_TRUE(contains(pbrtRefusal("Material \"conductor\" \"rgb k\" [1 1 1] \"rgb reflectance\" "
+                                   "[1 1 1]"),
+                       "give one of them"));
+  // A flat spectrum is grey, a wrong name is refused.
+  const Rgb grey =
+      onlyMaterial(withMaterial("Material \"diffuse\" \"spectrum reflectance\" [300 .4 "
+                                "900 .4] "))
+          .diffuse.value;
+  expectNear(grey, Rgb(0.4f));
+  EXPECT_TRUE(contains(pbrtRefusal("Material \"conductor\" \"spectrum eta\" \"metal-Ag-eat\""),
+                       "did you mean 'metal-Ag-eta'?"));
+  EXPECT_TRUE(
+      contains(pbrtRefusal("Material \"diffuse\" \"spectrum reflectance\" [300 1 400]"), "pairs"));
+}
+
+TEST(PbrtMaterials, NamesMixturesAndOpacity) {
+  const Scene scene = readPbrtWorld(
+      std::string(
+          "MakeNamedMaterial \"red\" \"string type\" \"diffuse\" \"rgb reflectance\" [1 0 0]\n"
+          "MakeNamedMaterial \"gold\" \"string type\" \"conductor\"\n"
+          "MakeNamedMaterial \"both\" \"string type\" \"mix\" \"string materials\" [\"red\" "
+          "\"gold\"] \"float amount\" .25\nNamedMaterial \"both\"\n") +
+      "Shape \"sphere\" \"float alpha\" .5");
+  const Material& mask = onlyMaterial(scene);
+  ASSERT_EQ(mask.type, MaterialType::mask);
+  EXPECT_FLOAT_EQ(mask.opacity.value, 0.5f);
+  const Material& mix = scene[mask.a];
+  ASSERT_EQ(mix.type, MaterialType::blend);
+  EXPECT_FLOAT_EQ(mix.weight.value, 0.25f);
+  EXPECT_EQ(scene[scene[mix.a].a].diffuse.value, Rgb(1, 0, 0));
+  EXPECT_TRUE(contains(pbrtRefusal(std::string("NamedMaterial \"read\"\n") + kTriangle),
+                       "unknown material 'read'"));
+  EXPECT_TRUE(contains(pbrtRefusal("MakeNamedMaterial \"x\""), "no \"string type\""));
+}
+
+TEST(PbrtMaterials, DiffuseTransmissionKeepsItsAlbedo) {
+  const Scene scene = withMaterial(
+      "Material \"diffusetransmission\" \"rgb reflectance\" [.3 .2 .1] "
+      "\"rgb transmittance\" [.4 .4 .1] ");
+  const Material& blend = onlyMaterial(scene);
+  const float w = blend.weight.value;
+  expectNear(scene[scene[blend.a].a].diffuse.value * (1 - w), {.3f, .2f, .1f});
+  expectNear(scene[blend.b].transmittance.value * w, {.4f, .4f, .1f});
+}
+
+TEST(PbrtMaterials, AbsorbingMediaFillGlass) {
+  const std::string medium =
+      "MakeNamedMedium \"green\" \"string type\" \"homogeneous\" \"rgb "
+      "sigma_a\" [.5 .2 .4] \"rgb sigma_s\" [0 0 0] \"float scale\" 2\n";
+  const Scene glass =
+      withMaterial(medium + "MediumInterface \"green\" \"\" Material \"dielectric\" ");
+  expectNear(onlyMaterial(glass).absorption, {1, .4f, .8f});
+  EXPECT_TRUE(glass.findings.empty()) << findingsOf(glass);
+  EXPECT_TRUE(
+      contains(findingsOf(withMaterial(medium + "MediumInterface \"green\" \"\" ")), "not glass"));
+  EXPECT_TRUE(contains(findingsOf(readPbrtWorld("MakeNamedMedium \"fog\" \"string type\" "
+                                                "\"homogeneous\"")),
+                       "not supported"));
+  EXPECT_TRUE(contains(pbrtRefusal(std::string("MediumInterface \"grean\" \"\"\n") + kTriangle),
+                       "unknown medium"));
+}
+
+class PbrtTextures : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+  // Two by two texels; the top row is red, green.
+  void SetUp() override {
+    io::writePng(folder.path("t.png"), {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}, 2, 2);
+  }
+  Rgb diffuseAt(const std::string& textures, Vec2f uv, bool expectSilence = true) {
+    const Scene scene = readPbrtText(folder, "WorldBegin\n" + textures +
+                                                 "\nMaterial \"diffuse\" \"texture reflectance\" "
+                                                 "\"t\"\n" +
+                                                 kTriangle);
+    EXPECT_EQ(scene.findings.empty(), expectSilence) << findingsOf(scene);
+    TextureContext at;
+    at.uv = uv;
+    return evaluate(scene, onlyMaterial(scene).diffuse, at);
+  }
+  static std::string spectrum(const std::string& rest) {
+    return "Texture \"t\" \"spectrum\" " + rest + "\n";
+  }
+};
+
+TEST_F(PbrtTextures, ImagesStandUpright) {
+  const std::string map = "\"imagemap\" \"string filename\" \"t.png\" \"string filter\" \"point\" ";
+  expectNear(diffuseAt(spectrum(map), {.25f, .75f}), {1, 0, 0});  // v grows upwards
+  expectNear(diffuseAt(spectrum(map), {.75f, .75f}), {0, 1, 0});
+  expectNear(diffuseAt(spectrum(map), {.25f, .25f}), {0, 0, 1});
+  expectNear(diffuseAt(spectrum(map + "\"float uscale\" 2 "), {.375f, .75f}), {0, 1, 0});
+  expectNear(diffuseAt(spectrum(map + "\"float vdelta\" .5 "), {.25f, .25f}), {1, 0, 0});
+  expectNear(diffuseAt(spectrum(map + "\"string wrap\" \"black\" "), {1.25f, .75f}), {0, 0, 0});
+  expectNear(diffuseAt(spectrum(map + "\"float scale\" .5 "), {.25f, .75f}), {.5f, 0, 0});
+  expectNear(diffuseAt(spectrum(map + "\"bool invert\" true "), {.25f, .75f}), {0, 1, 1});
+  EXPECT_TRUE(contains(pbrtRefusal("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" "
+                                   "\"none.png\""),
+                       "there is no image file 'none.png'"));
+}
+
+TEST_F(PbrtTextures, EveryKind) {
+  expectNear(diffuseAt(spectrum("\"constant\" \"rgb value\" [.1 .2 .3]"), {}), {.1f, .2f, .3f});
+  const std::string checker = "\"checkerboard\" \"rgb tex1\" [1 0 0] \"rgb tex2\" [0 1 0] ";
+  expectNear(diffuseAt(spectrum(checker), {.5f, .5f}), {1, 0, 0});
+  expectNear(diffuseAt(spectrum(checker), {1.5f, .5f}), {0, 1, 0});
+  expectNear(diffuseAt(spectrum(checker), {1.5f, 1.5f}), {1, 0, 0});
+  expectNear(diffuseAt(spectrum(checker + "\"float uscale\" 4 "), {.3f, .5f}), {0, 1, 0});
+  const std::string c = "Texture \"c\" \"spectrum\" " + checker + "\n";
+  expectNear(
+      diffuseAt(c + spectrum("\"scale\" \"texture tex\" \"c\" \"float scale\" .5"), {.5f, .5f}),
+      {.5f, 0, 0});
+  expectNear(diffuseAt(c + spectrum("\"mix\" \"texture tex1\" \"c\" \"rgb tex2\" [0 0 1] \"float "
+                                    "amount\" .25"),
+                       {.5f, .5f}),
+             {.75f, 0, .25f});
+  const std::string f =
+      "Texture \"f\" \"float\" \"checkerboard\" \"float tex1\" .5 \"float tex2\" 1\n";
+  expectNear(diffuseAt(c + f + spectrum("\"scale\" \"texture tex\" \"c\" \"texture scale\" \"f\""),
+                       {.5f, .5f}),
+             {.5f, 0, 0});
+  for (const char* type : {"fbm", "wrinkled", "windy", "marble", "dots", "ptex"})
+    diffuseAt(spectrum(std::string("\"") + type + "\""), {}, false);
+  expectNear(
+      diffuseAt(spectrum("\"bilerp\" \"rgb v00\" [1 0 0] \"rgb v01\" [1 0 0] \"rgb v10\" [1 0 "
+                         "0] \"rgb v11\" [1 0 0]"),
+                {}, false),
+      {1, 0, 0});
+  expectNear(
+      diffuseAt(spectrum("\"directionmix\" \"rgb tex1\" [1 0 0] \"rgb tex2\" [0 0 1]"), {}, false),
+      {.5f, 0, .5f});
+  EXPECT_TRUE(contains(pbrtRefusal("Texture \"t\" \"spectrum\" \"chequerboard\""),
+                       "unknown texture 'chequerboard'"));
+  EXPECT_TRUE(contains(pbrtRefusal("Material \"diffuse\" \"texture reflectance\" \"none\""),
+                       "unknown spectrum texture"));
+  EXPECT_TRUE(contains(pbrtRefusal("Texture \"f\" \"float\" \"constant\" Material \"diffuse\" "
+                                   "\"texture reflectance\" \"f\""),
+                       "is a float texture"));
+}
+
+TEST_F(PbrtTextures, RoughnessIsRemappedAndMapsPerturb) {
+  const Scene scene = readPbrtText(
+      folder, std::string("WorldBegin Texture \"r\" \"float\" \"checkerboard\" \"float tex1\" .25 "
+                          "\"float tex2\" .04\nMaterial \"conductor\" \"texture roughness\" \"r\" "
+                          "\"string normalmap\" \"t.png\"\n") +
+                  kTriangle);
+  EXPECT_TRUE(scene.findings.empty()) << findingsOf(scene);
+  const Material& map = onlyMaterial(scene);
+  ASSERT_EQ(map.type, MaterialType::normalMap);
+  const Material& metal = scene[map.a];
+  TextureContext at;
+  at.uv = {.5f, .5f};
+  EXPECT_NEAR(evaluate(scene, metal.alphaU, at), 0.5f, 1e-5f);
+  at.uv = {1.5f, .5f};
+  EXPECT_NEAR(evaluate(scene, metal.alphaV, at), 0.2f, 1e-5f);
+  const Scene bump = readPbrtText(
+      folder, std::string("WorldBegin Texture \"d\" \"float\" \"imagemap\" \"string filename\" "
+                          "\"t.png\"\nMaterial \"diffuse\" \"texture displacement\" \"d\"\n") +
+                  kTriangle);
+  EXPECT_EQ(onlyMaterial(bump).type, MaterialType::bump);
+  EXPECT_EQ(bump.images.at(0).channels, 1);
+}
+
+Emitter onlyLight(const std::string& text) {
+  const Scene scene = readPbrtWorld("LightSource " + text);
+  EXPECT_TRUE(scene.findings.empty()) << findingsOf(scene);
+  return scene.emitters.at(0);
+}
+
+TEST(PbrtLights, LevelsOfSpectra) {
+  // A black body, a flat spectrum and a named illuminant all have Y = scale.
+  for (const char* spectrum :
+       {"\"blackbody I\" 3000", "\"spectrum I\" [300 7 900 7]", "\"spectrum I\" \"stdillum-A\"",
+        "\"spectrum I\" \"stdillum-F11\""}) {
+    const Rgb c = colorOf(onlyLight(std::string("\"point\" \"float scale\" 3 ") + spectrum));
+    EXPECT_NEAR(luminance(c), 3, 0.03) << spectrum;
+  }
+  // Illuminant A is a black body of 2856 K, D65 is white.
+  expectNear(colorOf(onlyLight("\"point\" \"blackbody I\" 2856")),
+             colorOf(onlyLight("\"point\" \"spectrum I\" \"stdillum-A\"")), 0.01f);
+  expectNear(colorOf(onlyLight("\"point\" \"spectrum I\" \"stdillum-D65\"")), Rgb(1.f), 0.01f);
+  expectNear(colorOf(onlyLight("\"point\" \"rgb I\" [1 2 3]")), {1, 2, 3});
+  expectNear(colorOf(onlyLight("\"point\"")), Rgb(1.f));
+  expectNear(colorOf(onlyLight("\"point\" \"float power\" 100")), Rgb(100 / (4 * kPi)));
+  EXPECT_TRUE(contains(pbrtRefusal("LightSource \"point\" \"blackbody I\" -5"), "kelvin"));
+  EXPECT_TRUE(contains(pbrtRefusal("LightSource \"pont\""), "did you mean 'point'?"));
+}
+
+TEST(PbrtLights, ColourSpaces) {
+  // White of Rec. 2020 is D65; its green is outside of sRGB.
+  const Scene scene = readPbrtWorld(
+      "ColorSpace \"rec2020\" LightSource \"point\" \"rgb I\" [2 2 2] "
+      "LightSource \"point\" \"rgb I\" [0 1 0]");
+  expectNear(colorOf(scene.emitters.at(0)), Rgb(2.f), 1e-3f);
+  EXPECT_EQ(colorOf(scene.emitters.at(1)).x, 0);
+  EXPECT_GT(colorOf(scene.emitters.at(1)).y, 1.1f);
+}
+
+TEST(PbrtLights, PointAndDistant) {
+  const Emitter point = onlyLight("\"point\" \"point3 from\" [1 2 3]");
+  expectNear(point.toWorld.point({}), {1, 2, 3});
+  const Emitter distant = onlyLight(
+      "\"distant\" \"point3 from\" [0 5 0] \"point3 to\" [0 0 0] \"float illuminance\" 7");
+  EXPECT_EQ(distant.type, EmitterType::directional);
+  expectNear(distant.direction, {0, -1, 0});
+  expectNear(colorOf(distant), Rgb(7.f));
+}
+
+TEST(PbrtLights, SpotsFallOffSmoothly) {
+  const Scene scene = readPbrtWorld(
+      "LightSource \"spot\" \"point3 from\" [0 0 1] \"point3 to\" [0 0 "
+      "0] \"float coneangle\" 30 \"float conedeltaangle\" 10");
+  const Emitter& spot = scene.emitters.at(0);
+  EXPECT_EQ(spot.type, EmitterType::spot);
+  expectNear(normalize(spot.toWorld.vector({0, 0, 1})), {0, 0, -1});
+  for (const float degrees : {0.f, 15.f, 22.f, 25.f, 29.f}) {
+    TextureContext at;
+    at.uv = {.5f + .5f * std::tan(degrees * kPi / 180) / std::tan(spot.cutoff), .5f};
+    const float end = std::cos(30 * kPi / 180), start = std::cos(20 * kPi / 180);
+    const float t = std::clamp((std::cos(degrees * kPi / 180) - end) / (start - end), 0.f, 1.f);
+    EXPECT_NEAR(evaluate(scene, spot.pattern, at).x, t * t * (3 - 2 * t), 0.01f) << degrees;
+  }
+  const Scene wide = readPbrtWorld("LightSource \"spot\" \"float coneangle\" 120");
+  EXPECT_EQ(wide.emitters.at(0).type, EmitterType::goniometric);
+  const Image& image = wide.images.at(0);
+  EXPECT_EQ(image.at(0, 0, 0), 1);
+  EXPECT_EQ(image.at(0, image.height * 121 / 180, 0), 0);
+  EXPECT_TRUE(contains(pbrtRefusal("LightSource \"spot\" \"float coneangle\" 200"), "impossible"));
+}
+
+TEST(PbrtLights, Octahedral) {
+  for (uint32_t i = 0; i < 2000; ++i) {
+    const float z = 1 - 2 * (static_cast<float>(i) + .5f) / 2000,
+                phi = 2.4f * static_cast<float>(i);
+    const float s = std::sqrt(1 - z * z);
+    const Vec3f d{s * std::cos(phi), s * std::sin(phi), z};
+    expectNear(io::pbrt::directionFromOctahedral(io::pbrt::octahedralFromDirection(d)), d, 1e-3f);
+  }
+  // Known places (Clarberg 2008): +z in the middle, -z in the corners, +x right of the middle.
+  expectNear(io::pbrt::directionFromOctahedral({.5f, .5f}), {0, 0, 1});
+  expectNear(io::pbrt::directionFromOctahedral({0, 0}), {0, 0, -1});
+  expectNear(io::pbrt::directionFromOctahedral({1, .5f}), {1, 0, 0});
+  expectNear(io::pbrt::directionFromOctahedral({.5f, 1}), {0, 1, 0});
+}
+
+// An image whose colours are the directions, (d + 1) / 2.
+std::string writeDirections(const TemporaryFolder& folder, int size) {
+  std::vector<uint8_t> pixels;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const Vec3f d = io::pbrt::directionFromOctahedral(
+          {(static_cast<float>(x) + .5f) / static_cast<float>(size),
+           (static_cast<float>(y) + .5f) / static_cast<float>(size)});
+      for (int c = 0; c < 3; ++c)
+        pixels.push_back(static_cast<uint8_t>(std::lround(127.5f * (d[c] + 1))));
+    }
+  io::writePng(folder.path("d.png"), pixels, size, size);
+  return "d.png";
+}
+
+TEST(PbrtLights, InfiniteImagesKeepTheirOrientation) {
+  const TemporaryFolder folder;
+  writeDirections(folder, 128);
+  const Scene scene = readPbrtText(folder,
+                                   "WorldBegin Rotate 90 1 0 0 LightSource \"infinite\" "
+                                   "\"string filename\" \"d.png\" \"float scale\" 3");
+  const Emitter& e = scene.emitters.at(0);
+  ASSERT_EQ(e.type, EmitterType::environment);
+  EXPECT_FLOAT_EQ(e.scale, 3);
+  const Image& image = scene[e.image];
+  const auto encode = [](float v) {  // 8 bit sRGB to linear
+    const float s = (v + 1) / 2;
+    return s <= .04045f ? s / 12.92f : std::pow((s + .055f) / 1.055f, 2.4f);
+  };
+  for (int y = 3; y < image.height; y += 11)
+    for (int x = 0; x < image.width; x += 13) {
+      const float phi = (static_cast<float>(x) + .5f) / static_cast<float>(image.width) * kTwoPi;
+      const float theta = (static_cast<float>(y) + .5f) / static_cast<float>(image.height) * kPi;
+      // Local axes of our environments (scene/emitter.h: Mitsuba's).
+      const Vec3f d{std::sin(phi) * std::sin(theta), std::cos(theta),
+                    -std::cos(phi) * std::sin(theta)};
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at(x, y, c), encode(d[c]), 0.04f);
+    }
+  expectNear(e.toWorld.vector({0, 1, 0}), {0, 0, 1});
+}
+
+TEST(PbrtLights, InfiniteLevels) {
+  const Emitter sky = onlyLight("\"infinite\" \"rgb L\" [1 2 3] \"float scale\" 2");
+  EXPECT_EQ(sky.type, EmitterType::constant);
+  expectNear(colorOf(sky), {2, 4, 6});
+  expectNear(colorOf(onlyLight("\"infinite\" \"float illuminance\" 3.14159265")), Rgb(1.f));
+  const Scene sum = readPbrtWorld(
+      "LightSource \"infinite\" \"rgb L\" [1 2 3] LightSource "
+      "\"infinite\" \"rgb L\" [1 1 1]");
+  ASSERT_EQ(sum.emitters.size(), 1u);
+  expectNear(colorOf(sum.emitters[0]), {2, 3, 4});
+  EXPECT_TRUE(
+      contains(findingsOf(readPbrtWorld("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 "
+                                        "0 0 1 1 0 0 1 0]")),
+               "portal"));
+  const TemporaryFolder folder;
+  writeDirections(folder, 16);
+  const Scene both = readPbrtText(folder,
+                                  "WorldBegin LightSource \"infinite\" \"rgb L\" [5 5 5] "
+                                  "LightSource \"infinite\" \"string filename\" \"d.png\" "
+                                  "\"float scale\" 2");
+  ASSERT_EQ(both.emitters.size(), 1u);
+  EXPECT_EQ(both.emitters[0].type, EmitterType::environment);
+  EXPECT_GE(both.images.at(0).at(3, 3, 0), 2.5f);
+  io::writePng(folder.path("wide.png"), std::vector<uint8_t>(24), 4, 2);
+  EXPECT_TRUE(contains(
+      messageOf<InputError>([&] {
+        readPbrtText(folder,
+                     "WorldBegin LightSource \"infinite\" \"string filename\" \"wide.png\"");
+      }),
+      "square"));
+}
+
+TEST(PbrtLights, GoniometricAndProjection) {
+  const TemporaryFolder folder;
+  // Light only into the upper part of the image's sphere, its z, which is the light's y.
+  constexpr int kSize = 64;
+  std::vector<uint8_t> pixels;
+  for (int i = 0; i < kSize * kSize; ++i) {
+    const Vec3f d =
+        io::pbrt::directionFromOctahedral({(static_cast<float>(i % kSize) + .5f) / kSize,
+                                           (static_cast<float>(i / kSize) + .5f) / kSize});
+    for (int c = 0; c < 3; ++c) pixels.push_back(d.z > 0 ? 255 : 0);
+  }
+  io::writePng(folder.path("g.png"), pixels, kSize, kSize);
+  const Scene scene = readPbrtText(folder,
+                                   "WorldBegin LightSource \"goniometric\" \"string "
+                                   "filename\" \"g.png\" \"float power\" 10");
+  const Emitter& gonio = scene.emitters.at(0);
+  ASSERT_EQ(gonio.type, EmitterType::goniometric);
+  EXPECT_NEAR(colorOf(gonio).x, 10 / kTwoPi, 0.01f);
+  const Image& image = scene[gonio.image];
+  EXPECT_EQ(image.at(image.width / 4, image.height / 2, 0), 1);      // azimuth 90 degrees: +y
+  EXPECT_EQ(image.at(3 * image.width / 4, image.height / 2, 0), 0);  // -y
+
+  io::writePng(folder.path("p.png"), {255, 255, 255, 0, 0, 0}, 2, 1);
+  const Scene projection = readPbrtText(folder,
+                                        "WorldBegin LightSource \"projection\" \"string "
+                                        "filename\" \"p.png\" \"float fov\" 60");
+  const Emitter& p = projection.emitters.at(0);
+  ASSERT_EQ(p.type, EmitterType::projector);
+  EXPECT_NEAR(std::tan(p.fov / 2), 2 * std::tan(kPi / 6), 1e-5f);  // fov of the shorter side
+  // Left in the picture is white and lies at the light's -x; our uv grow towards local -x.
+  TextureContext at;
+  at.uv = {.49f, .5f};
+  EXPECT_NEAR(evaluate(projection, p.radiance, at).x, 1 / kPi, 0.01f);
+  at.uv = {.6f, .5f};
+  EXPECT_EQ(evaluate(projection, p.radiance, at).x, 0);
+  expectNear(p.toWorld.vector({1, 0, 0}), {-1, 0, 0});
+}
+
+TEST(PbrtLights, AreaLights) {
+  const Scene shared = readPbrtWorld(
+      std::string("AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"float scale\" 2\n") + kTriangle +
+      kTriangle);
+  EXPECT_EQ(shared.emitters.size(), 1u);
+  expectNear(colorOf(shared.emitters.at(0)), {2, 4, 6});
+  EXPECT_EQ(shared.instances.at(1).emitter.index, 0u);
+
+  const Scene power =
+      readPbrtWorld(std::string("AreaLightSource \"diffuse\" \"float power\" 10\n") + kTriangle +
+                    "Scale 2 2 2\n" + kTriangle);
+  ASSERT_EQ(power.emitters.size(), 2u);
+  EXPECT_NEAR(colorOf(power.emitters[0]).x, 10 / (kPi * .5f), 1e-3f);
+  EXPECT_NEAR(colorOf(power.emitters[1]).x, 10 / (kPi * 2), 1e-3f);
+
+  const Scene both = readPbrtWorld(
+      std::string("AreaLightSource \"diffuse\" \"bool twosided\" true\n") + kTriangle);
+  ASSERT_EQ(both.instances.size(), 2u);
+  EXPECT_NE(both.instances[0].flipNormals, both.instances[1].flipNormals);
+  EXPECT_LT(both[both.instances[1].mesh].positions[0].z, 0);
+
+  EXPECT_TRUE(contains(pbrtRefusal("AreaLightSource \"difuse\""), "unknown area light"));
+  const Scene object =
+      readPbrtWorld(std::string("AreaLightSource \"diffuse\" ObjectBegin \"o\"\n") + kTriangle +
+                    "ObjectEnd ObjectInstance \"o\"");
+  EXPECT_TRUE(contains(findingsOf(object), "do not shine"));
+  EXPECT_FALSE(object.instances.at(0).emitter.valid());
+}
+
+}  // namespace
+}  // namespace lobelia::test
