@@ -121,7 +121,9 @@ void Reader::emitter(const Element& element) {
     e.toWorld = placement(object);
     e.direction = direction(object);
     e.radiance = color(object, "irradiance", Rgb(1.f), SpectrumUse::emission);
-    e.angularRadius = object.number("angular_radius", e.angularRadius / kDegree) * kDegree;
+    if (const std::optional<double> degrees = object.number("angular_radius")) {
+      e.angularRadius = static_cast<float>(*degrees * static_cast<double>(kPi) / 180);
+    }
     if (!(e.angularRadius >= 0 && e.angularRadius <= kPi / 2)) {
       throw InputError(object.where(), "the sun's angular radius lies between 0 and 90 degrees");
     }

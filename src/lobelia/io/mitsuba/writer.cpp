@@ -253,9 +253,9 @@ void Writer::writeInstances() {
 void Writer::writeEmitters() {
   for (const Emitter& emitter : scene_.emitters) {
     if (emitter.type == EmitterType::area) continue;  // written with its shapes
-    emitterProperties(object(root_, "emitter", pluginName(emitter.type),
-                             ids_.make(emitter.name, "emitter")),
-                      emitter);
+    emitterProperties(
+        object(root_, "emitter", pluginName(emitter.type), ids_.make(emitter.name, "emitter")),
+        emitter);
   }
 }
 
@@ -277,7 +277,7 @@ void Writer::emitterProperties(Node node, const Emitter& e) {
       if (e.pattern.valid()) reference(node, textureId(e.pattern, false), "texture");
       break;
     case EmitterType::sun:
-      property(node, "float", "angular_radius", text(degrees(e.angularRadius)));
+      property(node, "float", "angular_radius", text(exactDegrees(e.angularRadius)));
       [[fallthrough]];
     case EmitterType::directional:
       color(node, "irradiance", e.radiance);
