@@ -178,9 +178,9 @@ TEST(PbrtSyntax, Cameras) {
   EXPECT_EQ(c.filter, PixelFilter::tent);
   EXPECT_FLOAT_EQ(c.apertureRadius, 0.1f);
   EXPECT_FLOAT_EQ(c.focusDistance, 4);
-  // The right of the picture is +x when looking along -z.
+  // PBRT's world is left-handed: the right of the picture is -x when looking along -z.
   const Ray right = generateRay(c, {399, 100}, {0.5f, 0.5f});
-  EXPECT_GT(right.d.x, 0.5f);
+  EXPECT_LT(right.d.x, -0.5f);
   EXPECT_LT(right.d.z, 0);
   EXPECT_GT(generateRay(c, {200, 0}, {0.5f, 0.5f}).d.y, 0.3f);
 }

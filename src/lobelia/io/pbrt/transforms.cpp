@@ -67,7 +67,8 @@ void Reader::rotate(const Token& token) {
   concatenate(token, rotation({n[1], n[2], n[3]}, n[0]));
 }
 
-// PBRT's camera space is left-handed, x to the right: lookAt() of base has x to the left.
+// PBRT's x is up times direction as in lookAt() of base, where that is the left: PBRT's world is
+// left-handed, and makeCamera() puts +x on the right.
 void Reader::lookAt(const Token& token) {
   const std::vector<double> n = numbers(token, 9);
   const std::optional<Mat4> toWorld =
@@ -77,7 +78,7 @@ void Reader::lookAt(const Token& token) {
                      "LookAt has no direction, or its up vector lies along it; it takes eye, "
                      "target and up");
   }
-  concatenate(token, *inverse(*toWorld * scaling({-1, 1, 1})));
+  concatenate(token, *inverse(*toWorld));
 }
 
 void Reader::transform(const Token& token) {
