@@ -28,6 +28,9 @@ constexpr float kLeastSharpness = 1, kGreatestSharpness = 5e4f;
 constexpr std::array<float, 5> kIndices{1.f, 1.3f, 1.5f, 1.8f, 2.5f};
 constexpr float kGreatestIndex = 4;
 constexpr int kRounds = 3;  // of weights
+// Of lobes that reflect more than they receive, which scaling down would make too dark: a higher
+// index of refraction often does as well.
+constexpr double kPenalty = 100;
 
 struct Sample {
   Vec3f wo, wi;
@@ -130,6 +133,7 @@ Weights weightsOf(const Data& data, const Model* fit) {
 void solve(const Data& data, const Weights& weights, Model& model) {
   const size_t n = model.columns.size(), count = data.samples.size();
   model.error = 0;
+  double excess = 0;
   for (size_t c = 0; c < 3; ++c) {
     Matrix8 gram{};
     Vector8 projection{};
@@ -154,7 +158,12 @@ void solve(const Data& data, const Weights& weights, Model& model) {
     }
     model.error += left;
     model.amplitudes[c] = x;
+    // Columns are of unit reflectance: see capturedScale().
+    double weight = model.ior > 1 ? 0 : x[0];
+    for (size_t k = 1; k < n; ++k) weight += x[k];
+    excess = std::max(excess, weight - 1);
   }
+  model.error *= 1 + kPenalty * excess;
 }
 
 Model grow(const Data& data, const Weights& weights, float ior, int lobeCount) {
