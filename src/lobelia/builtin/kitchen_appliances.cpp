@@ -127,7 +127,7 @@ void addHood(KitchenKit& kit) {
                false, false, 10),
           at * scaling({1, 1, 1}), m.steelDark, "hood lip");
   kit.box({kMiddle - 0.44f, kHoodLow + 0.018f, 0.02f}, {kMiddle + 0.44f, kHoodLow + 0.03f, 0.50f},
-          m.steelDark, "hood ceiling", 0.001f);
+          m.iron, "hood ceiling", 0.001f);
   std::vector<Mesh> slats;
   for (int i = 0; i < 13; ++i)
     slats.push_back(translated(kit.boxMesh({0.19f, 0.003f, 0.006f}, 0.001f),
@@ -135,7 +135,7 @@ void addHood(KitchenKit& kit) {
   const MeshHandle filter = kit.add(merged(slats), "filter");
   for (const double dx : {-0.215, 0.215})
     kit.put(filter, translation({toDouble(kMiddle) + dx, toDouble(kHoodLow) + 0.015, 0.10}),
-            m.chrome, "filter");
+            m.iron, "filter");
   // A rail along the lip.
   kit.put(barHandle(kit, 0.84f, 0.035f, 0.007f),
           translation({toDouble(kMiddle), toDouble(kHoodLow) + 0.028, back + 0.249}), m.chrome,

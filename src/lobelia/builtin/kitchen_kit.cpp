@@ -115,7 +115,9 @@ void KitchenKit::addWoodsAndPaints() {
   m.pale = add(phong(Rgb(0.62f, 0.60f, 0.53f), Rgb(0.08f), 100.f), "pale lacquer");
   m.carcass = add(diffuse(Rgb(0.06f)), "carcass");
   m.black = add(diffuse(Rgb(0.03f)), "matt black");
-  m.bulb = add(diffuse(Rgb(0.5f)), "lamp glass");
+  // Dark, as they are so near to the lamps' points of light that they would outshine the sun.
+  m.bulb = add(diffuse(Rgb(0.04f)), "lamp glass");
+  m.lining = add(diffuse(Rgb(0.26f, 0.20f, 0.12f)), "pendant lining");
   const SurfaceImages weave = fabric({0.66f, 0.62f, 0.52f}, {0.60f, 0.55f, 0.45f}, 48, small_, 4);
   m.curtain = add(twoSided(add(diffuse(addBitmap(weave.color, {4, 4})), "linen, front")), "linen");
   const TextureHandle stripe =

@@ -16,7 +16,7 @@ struct KitchenPalette {
   MaterialHandle paint, ceiling, trim, floor, wallTiles, lacquer, pale, carcass, oak, walnut,
       marble, steel, steelUpright, chrome, brass, copper, tin, iron, enamel, redEnamel, blackGlass,
       glass, greenGlass, porcelain, blueGlaze, clay, black, cloth, curtain, leaf, orange, apple,
-      lemon, pear, stalk, bread, pasta, coffee, paper, bulb, steelDark;
+      lemon, pear, stalk, bread, pasta, coffee, paper, bulb, lining, steelDark;
 };
 
 enum class KitchenLighting { day, stove, evening };

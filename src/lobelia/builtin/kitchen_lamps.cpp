@@ -149,7 +149,7 @@ void addHoodLamps(KitchenKit& kit) {
     // The outside of the rim's wall is on its right as it runs: down outside, up inside.
     kit.put(glow, translation({x, y, z}) * rotation({1, 0, 0}, 180), m.bulb, "stove lamp", lamp);
     kit.put(rim, translation({x, y, z}) * rotation({1, 0, 0}, 180), m.chrome, "stove lamp, rim");
-    addPoint(kit, {x, y - 0.03, z}, kWarm * 0.55f, "stove lamp");
+    addPoint(kit, {x, y - 0.05, z}, kWarm * 0.55f, "stove lamp");
   }
 }
 
@@ -190,7 +190,7 @@ void addPendants(KitchenKit& kit) {
   for (const double dx : {-0.62, 0.0, 0.62}) {
     const Vec3d at{toDouble(kIsland.x) + dx, low, toDouble(kIsland.z)};
     kit.put(shell, translation(at), m.copper, "pendant");
-    kit.put(lining, translation(at), m.trim, "pendant, lining");
+    kit.put(lining, translation(at), m.lining, "pendant, lining");
     kit.put(socket, translation({at.x, low + 0.10, at.z}), m.brass, "socket");
     kit.put(bulb, translation({at.x, low + 0.075, at.z}), m.bulb, "bulb", glow);
     kit.put(cord, translation({at.x, low + 0.165, at.z}), m.black, "cord");
