@@ -33,10 +33,10 @@ class GlossyBox : SceneBuilder {
     Emitter lamp;
     lamp.type = EmitterType::point;
     lamp.radiance = Rgb(2.2f, 2.0f, 1.7f);
-    lamp.toWorld = Transform(translation({-0.15, 1.82, 0.35}));
+    lamp.toWorld = Transform(translation({-0.125, 1.8125, 0.375}));
     add(lamp, "lamp");
-    addCamera("front", {0, 1, 4.75}, {0, 0.97, 0}, 2 * 180 / kPi * std::atan(1.36 / 3.75), 800,
-              600);
+    addCamera("front", {0.03, 1.02, 4.75}, {0.01, 0.97, 0}, 2 * 180 / kPi * std::atan(1.36 / 3.75),
+              800, 600);
     scene().integrator = "path";
     scene().maxDepth = 10;
     return take();
@@ -105,10 +105,11 @@ class GlossyBox : SceneBuilder {
     const auto exponent = [&](Vec2f uv) {  // of 200
       return pick(uv, Rgb(0.08f + 0.16f * uv.y), Rgb(0.5f), Rgb(0.25f), Rgb(1.f), Rgb(0.4f)).x;
     };
-    return add(phong(bitmap(colorImage(kSize, kSize, base), "screen-colour"),
-                     bitmap(colorImage(kSize, kSize, gloss), "screen-gloss"),
-                     times(bitmap(dataImage(kSize, kSize, exponent), "screen-exponent"), 200)),
-               "flowered lacquer");
+    const TextureHandle color = bitmap(colorImage(kSize, kSize, base), "screen-colour"),
+                        specular = bitmap(colorImage(kSize, kSize, gloss), "screen-gloss"),
+                        sharpness = times(
+                            bitmap(dataImage(kSize, kSize, exponent), "screen-exponent"), 200);
+    return add(phong(color, specular, sharpness), "flowered lacquer");
   }
 
   void addScreen() {

@@ -60,8 +60,16 @@ Mesh fitted(Mesh mesh, const Bounds3f& place, const Location& from) {
 }  // namespace
 
 void useRealMeshes(Scene& scene, const std::string& folder) {
+  const Location where{folder, 0, 0};
+  const auto report = [&](Severity severity, const Location& at, std::string message) {
+    Finding finding;
+    finding.severity = severity;
+    finding.where = at;
+    finding.message = std::move(message);
+    scene.findings.push_back(std::move(finding));
+  };
   if (!fs::is_directory(folder))
-    throw InputError({folder, 0, 0}, "no such folder of meshes; scripts/assets makes one");
+    throw InputError(where, "no such folder of meshes; scripts/assets makes one");
   bool any = false;
   for (Mesh& mesh : scene.meshes)
     for (const StandIn& standIn : kStandIns) {
@@ -69,11 +77,12 @@ void useRealMeshes(Scene& scene, const std::string& folder) {
       any = true;
       const fs::path file = findFile(folder, standIn);
       if (file.empty()) {
-        scene.findings.push_back(
-            {Severity::warning,
-             {folder, 0, 0},
-             fmt::format("no mesh for '{}' (looked for {} as .ply and .obj); the stand-in stays",
-                         mesh.name, fmt::join(standIn.files, ", "))});
+        report(
+            Severity::warning, where,
+            fmt::format(
+                "no mesh for '{}' (looked for {} as .ply and .obj); the stand-in stays", mesh.name,
+                fmt::join(std::vector<std::string>(standIn.files.begin(), standIn.files.end()),
+                          ", ")));
         continue;
       }
       const Location from{file.string(), 0, 0};
@@ -82,13 +91,11 @@ void useRealMeshes(Scene& scene, const std::string& folder) {
       real = fitted(std::move(real), bounds(mesh), from);
       real.name = mesh.name;
       mesh = std::move(real);
-      scene.findings.push_back({Severity::info, from, fmt::format("stands for '{}'", mesh.name)});
+      report(Severity::info, from, fmt::format("stands for '{}'", mesh.name));
     }
   if (!any)
-    scene.findings.push_back(
-        {Severity::warning,
-         {folder, 0, 0},
-         "the scene has no stand-in for a real mesh; --meshes changes nothing"});
+    report(Severity::warning, where,
+           "the scene has no stand-in for a real mesh; --meshes changes nothing");
 }
 
 }  // namespace lobelia::builtin

@@ -61,9 +61,9 @@ class DiningRoom : SceneBuilder {
     oak.planks = 8;
     oak.seed = 4;
     const SurfaceImages planks = builtin::wood(oak, 512);
-    floor_ = add(coated(bitmap(planks.color, "floor-colour", 2.5f, 2.5f),
-                        bitmap(planks.roughness, "floor-roughness", 2.5f, 2.5f)),
-                 "oak floor");
+    const TextureHandle plankColor = bitmap(planks.color, "floor-colour", 2.5f, 2.5f),
+                        plankRoughness = bitmap(planks.roughness, "floor-roughness", 2.5f, 2.5f);
+    floor_ = add(coated(plankColor, plankRoughness), "oak floor");
     Wood walnut;
     walnut.light = {0.23f, 0.115f, 0.055f}, walnut.dark = {0.095f, 0.042f, 0.02f};
     walnut.planks = 1, walnut.seed = 9, walnut.roughness = 0.12f;

@@ -93,6 +93,7 @@ class Tableau : SceneBuilder {
           "hare");
   }
 
+  // Directions that stay the same to the bit when they are normalised again, as readers do.
   void addLights() {
     const auto sun = [&](Vec3f from, Rgb irradiance, const char* name) {
       Emitter light;
@@ -102,8 +103,8 @@ class Tableau : SceneBuilder {
       add(light, name);
     };
     sun({-0.75f, 1.1f, 0.75f}, Rgb(2.6f, 2.4f, 2.1f), "key light");
-    sun({0.9f, 0.8f, 0.35f}, Rgb(0.9f, 1.1f, 1.4f), "fill light");
-    sun({0.15f, 0.75f, -1.0f}, Rgb(1.0f, 0.95f, 0.9f), "back light");
+    sun({0.9f, 0.8f, 0.4f}, Rgb(0.9f, 1.1f, 1.4f), "fill light");
+    sun({0.15f, 0.72f, -1.0f}, Rgb(1.0f, 0.95f, 0.9f), "back light");
   }
 };
 

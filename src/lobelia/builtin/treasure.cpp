@@ -4,7 +4,8 @@
 // (hall_light.h), and --environment takes captured ones. All metal is Phong, as in the paper.
 //
 // y is up, the floor y = 0, the viewer at +z. Coins, rings, pearls and gems settle one by one on
-// the height of what lies already (pile.h).
+// the height of what lies already (pile.h). Meshes are added where they are first placed: the order
+// in which a file of the scene has them.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -93,9 +94,6 @@ class Treasure : SceneBuilder {
   }
 
   void addCoins(int count) {
-    if (coins_.empty())
-      for (const int rays : {8, 12, 5})
-        coins_.push_back(add(coin(fine_, rays), fmt::format("coin of {} rays", rays)));
     for (int i = 0; i < count; ++i) {
       // Of a few places on the heap the lowest that is free.
       Vec2f best;
@@ -114,7 +112,11 @@ class Treasure : SceneBuilder {
                                    : kind < 0.75f ? polished_
                                    : kind < 0.93f ? silver_
                                                   : copper_;
-      const MeshHandle mesh = coins_[static_cast<size_t>(rng_.next1D() * 2.999f)];
+      constexpr int kRays[] = {8, 12, 5};
+      const auto design = static_cast<size_t>(rng_.next1D() * 2.999f);
+      MeshHandle& mesh = coins_[design];
+      if (!mesh.valid())
+        mesh = add(coin(fine_, kRays[design]), fmt::format("coin of {} rays", kRays[design]));
       const Mat4 at = pile_.settle(best, radius, 0.08f * radius, 0.12f, rng_);
       place(mesh, disc(at, radius), metal, fmt::format("coin {}", ++coinCount_));
     }
@@ -135,6 +137,10 @@ class Treasure : SceneBuilder {
     const MeshHandle band = add(crownBand(fine_, points), name);
     place(band, at, metal, name);
     if (arches) place(add(crownArches(fine_), name + ", arches"), at, metal, name + ", arches");
+    if (!gem_.valid()) {
+      gem_ = add(cutGem(10), "cut gem");
+      bead_ = add(ball(1, segments(14, 4), segments(24, 8)), "bead");
+    }
     const MaterialHandle stones[] = {ruby_, emerald_, sapphire_};
     for (int i = 0; i < points; ++i) {
       const double turn = 360.0 * i / points;
@@ -153,8 +159,6 @@ class Treasure : SceneBuilder {
   }
 
   void addItems() {
-    gem_ = add(cutGem(10), "cut gem");
-    bead_ = add(ball(1, segments(14, 4), segments(24, 8)), "bead");
     const Vec3d x{1, 0, 0}, z{0, 0, 1};
     addCrown(stood({-0.02f, -0.28f}, 0.24f, -0.02, x, 10, 20, 0.255), gold_, 8, true,
              "king's crown");
@@ -245,7 +249,7 @@ class Treasure : SceneBuilder {
     Emitter lamp;
     lamp.type = EmitterType::point;
     lamp.radiance = Rgb(7.0f, 5.6f, 3.8f);
-    lamp.toWorld = Transform(translation({-1.1, 2.0, 1.4}));
+    lamp.toWorld = Transform(translation({-1.125, 2.0, 1.375}));
     add(lamp, "lamp");
   }
 
@@ -253,7 +257,7 @@ class Treasure : SceneBuilder {
   Fineness fine_;
   Rng rng_{2016};
   int coinCount_ = 0;
-  std::vector<MeshHandle> coins_;
+  MeshHandle coins_[3];
   MeshHandle gem_, bead_;
   MaterialHandle gold_, oldGold_, polished_, silver_, copper_, steel_, ruby_, emerald_, sapphire_,
       pearl_;
