@@ -85,6 +85,41 @@ TEST(Tracer, AgreesWithBruteForce) {
   }
 }
 
+TEST(Tracer, PacketsFindTheSameHitsAsSingleRays) {
+  for (const bool instanced : {false, true}) {
+    const Scene s = mixedScene(instanced);
+    Context context;
+    const Tracer tracer(s, context);
+    Rng rng(3);
+    int found = 0, missed = 0;
+    for (int k = 0; k < 300; ++k) {
+      ShadowPacket packet{};
+      std::optional<Hit> expected[ShadowPacket::kSize], hits[ShadowPacket::kSize];
+      const int filled = 1 + k % ShadowPacket::kSize;
+      for (int i = 0; i < filled; ++i) {
+        Ray ray{sampleSphereUniform(rng.next2D()) * 6.f, sampleSphereUniform(rng.next2D())};
+        ray.tMax = 10 * rng.next1D();
+        if (i == 3) ray.o.x = std::numeric_limits<float>::quiet_NaN();
+        packet.set(i, ray);
+        expected[i] = tracer.intersect(ray);
+        hits[i] = Hit{};  // to be overwritten
+      }
+      tracer.intersect(packet, k % 2 == 0, hits);
+      for (int i = 0; i < ShadowPacket::kSize; ++i) {
+        ASSERT_EQ(hits[i].has_value(), expected[i].has_value()) << k << ' ' << i;
+        ++(hits[i] ? found : missed);
+        if (!hits[i]) continue;
+        EXPECT_EQ(hits[i]->instance, expected[i]->instance);
+        EXPECT_EQ(hits[i]->triangle, expected[i]->triangle);
+        EXPECT_NEAR(hits[i]->t, expected[i]->t, 1e-4f);
+        EXPECT_NEAR(hits[i]->b1, expected[i]->b1, 2e-3f);
+      }
+    }
+    EXPECT_GT(found, 200);
+    EXPECT_GT(missed, 200);
+  }
+}
+
 TEST(Tracer, PacketsAgreeWithSingleRays) {
   for (const bool instanced : {false, true}) {
     const Scene s = mixedScene(instanced);

@@ -46,15 +46,16 @@ class Distribution2D {
  public:
   Distribution2D() = default;
   Distribution2D(std::span<const float> weights, int nx, int ny);
-  Vec2f sample(Vec2f u, float* pdf) const;  // pdf with respect to the unit square
+  // pdf: with respect to the unit square; null where it is not wanted (that spares a cache miss).
+  Vec2f sample(Vec2f u, float* pdf) const;
   float pdf(Vec2f p) const;
   double total() const { return total_; }   // sum of weights
 
  private:
   int nx_ = 0, ny_ = 0;
   std::vector<float> weights_;
-  std::vector<float> conditional_;  // ny rows of nx+1 cumulatives
-  std::vector<float> marginal_;     // ny+1
+  std::vector<float> conditional_;  // ny rows of nx+1 cumulatives, each with levels above it
+  std::vector<float> marginal_;     // ny+1, likewise
   double total_ = 0;
 };
 

@@ -272,12 +272,30 @@ float EmitterTree::importance(const Node& node, Vec3f p, Vec3f n) {
   return result;
 }
 
+// The nodes below two siblings, one pair of which is needed next: on their way from memory while
+// the siblings are weighed.
+void EmitterTree::prefetchBelow(size_t children) const {
+#if defined(__GNUC__)
+  for (const size_t child : {children, children + 1}) {
+    const uint32_t next = nodes_[child].next;
+    if (next & kLeafBit) continue;
+    // 72 bytes, two cache lines.
+    const Node* const pair = nodes_.data() + next;
+    __builtin_prefetch(pair);
+    __builtin_prefetch(reinterpret_cast<const char*>(pair + 2) - 1);
+  }
+#else
+  (void)children;
+#endif
+}
+
 std::optional<EmitterTree::Choice> EmitterTree::sample(Vec3f p, Vec3f n, double u) const {
   if (nodes_.empty()) return std::nullopt;
   size_t node = 0;
   double probability = 1;
   while (!(nodes_[node].next & kLeafBit)) {
     const size_t children = nodes_[node].next;
+    prefetchBelow(children);
     const double left = importance(nodes_[children], p, n);
     const double right = importance(nodes_[children + 1], p, n);
     if (!(left + right > 0)) return std::nullopt;
@@ -302,6 +320,7 @@ float EmitterTree::probability(Vec3f p, Vec3f n, uint32_t light) const {
   double probability = 1;
   for (int level = static_cast<int>(std::bit_width(path)) - 2; level >= 0; --level) {
     const size_t children = nodes_[node].next;
+    prefetchBelow(children);
     const double left = importance(nodes_[children], p, n);
     const double right = importance(nodes_[children + 1], p, n);
     if (!(left + right > 0)) return 0;

@@ -65,6 +65,7 @@ class EmitterTree {
   struct Builder;
 
   static float importance(const Node& node, Vec3f p, Vec3f n);
+  void prefetchBelow(size_t children) const;
   static constexpr uint64_t kAbsent = ~0ull;
 
   std::vector<Node> nodes_;      // the root first, siblings side by side

@@ -56,12 +56,17 @@ float EnvironmentSampler::nodeWeight(int x, int y) const {
   return std::isfinite(weight) ? weight * rowSine_[static_cast<size_t>(y)] : 0.f;
 }
 
-float EnvironmentSampler::density(Vec2f s) const {
+EnvironmentSampler::Corners EnvironmentSampler::corners(const Cell& c) const {
+  return {nodeWeight(c.x0, c.y0), nodeWeight(c.x1, c.y0), nodeWeight(c.x0, c.y1),
+          nodeWeight(c.x1, c.y1)};
+}
+
+float EnvironmentSampler::density(const Cell& c, const Corners& w, Vec3f local,
+                                  float jacobian) const {
   if (!(mean_ > 0)) return 0;
-  const SphericalImage::Cell c = image_.cellAt(s);
-  const float top = lerp(nodeWeight(c.x0, c.y0), nodeWeight(c.x1, c.y0), c.fx);
-  const float bottom = lerp(nodeWeight(c.x0, c.y1), nodeWeight(c.x1, c.y1), c.fx);
-  return lerp(top, bottom, c.fy) / static_cast<float>(mean_);
+  const float top = lerp(w.w00, w.w10, c.fx), bottom = lerp(w.w01, w.w11, c.fx);
+  const float sine = std::sqrt(std::max(local.x * local.x + local.z * local.z, 1e-14f));
+  return lerp(top, bottom, c.fy) / static_cast<float>(mean_) * jacobian / (2 * kPi * kPi * sine);
 }
 
 // jacobian: solid angle in local space per solid angle in world space.
@@ -78,8 +83,9 @@ Rgb EnvironmentSampler::radiance(Vec3f d) const {
   return image_.at(toLocal(d, &jacobian)) * value_;
 }
 
-Vec3f EnvironmentSampler::sample(Vec3f n, Vec2f u, float* pdf) const {
+Vec3f EnvironmentSampler::sample(Vec3f n, Vec2f u, float* pdf, Rgb* radiance) const {
   if (constant_) {
+    if (radiance) *radiance = value_;
     if (n == Vec3f{}) {
       *pdf = 0.25f * kInvPi;
       return sampleSphereUniform(u);
@@ -90,17 +96,18 @@ Vec3f EnvironmentSampler::sample(Vec3f n, Vec2f u, float* pdf) const {
   }
   *pdf = 0;
   if (!(mean_ > 0)) return {0, 1, 0};
-  float cellPdf;
-  const SphericalImage::Cell c = image_.cellAt(cells_.sample(u, &cellPdf));
-  const float w00 = nodeWeight(c.x0, c.y0), w10 = nodeWeight(c.x1, c.y0);
-  const float w01 = nodeWeight(c.x0, c.y1), w11 = nodeWeight(c.x1, c.y1);
-  const float fy = sampleLinear(w00 + w10, w01 + w11, c.fy);
-  const float fx = sampleLinear(lerp(w00, w01, fy), lerp(w10, w11, fy), c.fx);
-  const Vec2f s{(static_cast<float>(c.x0) + fx) / static_cast<float>(image_.width()),
-                (static_cast<float>(c.y0) + fy) / static_cast<float>(rowSine_.size() - 1)};
+  Cell c = image_.cellAt(cells_.sample(u, nullptr));
+  const Corners w = corners(c);
+  c.fy = sampleLinear(w.w00 + w.w10, w.w01 + w.w11, c.fy);
+  c.fx = sampleLinear(lerp(w.w00, w.w01, c.fy), lerp(w.w10, w.w11, c.fy), c.fx);
+  const Vec2f s{(static_cast<float>(c.x0) + c.fx) / static_cast<float>(image_.width()),
+                (static_cast<float>(c.y0) + c.fy) / static_cast<float>(image_.rows())};
   const Vec3f d = normalize(toWorld_ * image_.fromSquare(s));
-  // The density is looked up again from the direction, so that both ways give the same number.
-  *pdf = EnvironmentSampler::pdf(n, d);
+  // As pdf(d) has it but for the place in the cell: near the poles rounding of d matters.
+  float jacobian;
+  const Vec3f local = toLocal(d, &jacobian);
+  *pdf = density(c, w, local, jacobian);
+  if (radiance) *radiance = image_.at(c) * value_;
   return d;
 }
 
@@ -110,8 +117,8 @@ float EnvironmentSampler::pdf(Vec3f n, Vec3f d) const {
   }
   float jacobian;
   const Vec3f local = toLocal(d, &jacobian);
-  const float sine = std::sqrt(std::max(local.x * local.x + local.z * local.z, 1e-14f));
-  return density(image_.toSquare(local)) * jacobian / (2 * kPi * kPi * sine);
+  const Cell c = image_.cellAt(image_.toSquare(local));
+  return density(c, corners(c), local, jacobian);
 }
 
 }  // namespace lobelia

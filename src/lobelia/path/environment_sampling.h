@@ -20,14 +20,23 @@ class EnvironmentSampler {
   Rgb radiance(Vec3f d) const;
   // Direction towards the environment and its density per solid angle; empty (pdf 0) by chance only
   // on rounding. n: cosine-weighted around it where the environment is constant, unless zero.
-  Vec3f sample(Vec3f n, Vec2f u, float* pdf) const;
+  // radiance: from the direction, unless null. It and the density are those of the direction before
+  // it was rounded: radiance(d) and pdf(n, d) differ in the last digits.
+  Vec3f sample(Vec3f n, Vec2f u, float* pdf, Rgb* radiance = nullptr) const;
   float pdf(Vec3f n, Vec3f d) const;
   // Luminance integrated over the sphere.
   double integral() const { return integral_; }
 
  private:
+  using Cell = SphericalImage::Cell;
+  struct Corners {  // weights at a cell's corners: x0 y0, x1 y0, x0 y1, x1 y1
+    float w00, w10, w01, w11;
+  };
+
   float nodeWeight(int x, int y) const;
-  float density(Vec2f s) const;  // with respect to the unit square of s
+  Corners corners(const Cell& cell) const;
+  // With respect to solid angle, at the cell's position.
+  float density(const Cell& cell, const Corners& corners, Vec3f local, float jacobian) const;
   Vec3f toLocal(Vec3f d, float* jacobian) const;
 
   bool constant_ = true;

@@ -100,15 +100,16 @@ std::optional<EmitterDirection> InfiniteLights::sample(const InfiniteLight& ligh
     return out;
   }
   float pdf = pdfOf(light);
+  Rgb radiance = light.value;
   if (light.kind == Kind::disc)
     out.wi = frameFromNormal(light.direction).toWorld(sampleConeUniform(u, light.oneMinusCos));
   else
-    out.wi = environments_[light.environment].sample(n, u, &pdf);
+    out.wi = environments_[light.environment].sample(n, u, &pdf, &radiance);
   if (!(pdf > 0)) return std::nullopt;
   const bool alone = environments_.size() + discs_.size() == 1;
   out.pdf = alone ? pdf * light.probability : pdfEscaped(n, out.wi);
   if (!(out.pdf > 0)) return std::nullopt;  // rounded out of its disc
-  out.weight = escaped(out.wi) / out.pdf;
+  out.weight = (alone ? radiance : escaped(out.wi)) / out.pdf;
   return out;
 }
 
@@ -127,9 +128,10 @@ std::optional<EmittedRay> InfiniteLights::sampleRay(const InfiniteLight& light, 
   } else {
     const EnvironmentSampler& environment = environments_[light.environment];
     float pdf;
-    towards = environment.sample({}, uDirection, &pdf);
+    Rgb radiance;
+    towards = environment.sample({}, uDirection, &pdf, &radiance);
     if (!(pdf > 0)) return std::nullopt;
-    out.power = environment.radiance(towards) * (area / pdf);
+    out.power = radiance * (area / pdf);
   }
   const Frame frame = frameFromNormal(towards);
   const Vec2f d = sampleDiskConcentric(uPosition);

@@ -2,16 +2,6 @@
 
 namespace lobelia {
 
-Rgb SphericalImage::texel(int x, int y) const {
-  y = std::min(y, image_->height - 1);
-  const size_t channels = static_cast<size_t>(image_->channels);
-  const float* v =
-      image_->pixels.data() +
-      (static_cast<size_t>(y) * static_cast<size_t>(image_->width) + static_cast<size_t>(x)) *
-          channels;
-  return channels < 3 ? Rgb(v[0]) : Rgb(v[0], v[1], v[2]);
-}
-
 SphericalImage::Cell SphericalImage::cellAt(Vec2f s) const {
   const float x = s.x * static_cast<float>(width()), y = s.y * static_cast<float>(rows_);
   Cell cell{};
@@ -35,8 +25,7 @@ Vec3f SphericalImage::fromSquare(Vec2f s) const {
   return {std::sin(phi) * sine, std::cos(theta), -std::cos(phi) * sine};
 }
 
-Rgb SphericalImage::at(Vec3f unit) const {
-  const Cell c = cellAt(toSquare(unit));
+Rgb SphericalImage::at(const Cell& c) const {
   const Rgb top = lerp(texel(c.x0, c.y0), texel(c.x1, c.y0), c.fx);
   const Rgb bottom = lerp(texel(c.x0, c.y1), texel(c.x1, c.y1), c.fx);
   return lerp(top, bottom, c.fy);

@@ -11,6 +11,8 @@
 // +y.
 #pragma once
 
+#include <algorithm>
+
 #include "lobelia/scene/texture.h"
 
 namespace lobelia {
@@ -28,12 +30,19 @@ class SphericalImage {
 
   int width() const { return image_->width; }
   int rows() const { return rows_; }  // of cells, from pole to pole
-  Rgb texel(int x, int y) const;      // y from 0 to rows()
+  Rgb texel(int x, int y) const {     // y from 0 to rows()
+    const size_t row = static_cast<size_t>(std::min(y, image_->height - 1));
+    const size_t channels = static_cast<size_t>(image_->channels);
+    const float* v = image_->pixels.data() +
+                     (row * static_cast<size_t>(image_->width) + static_cast<size_t>(x)) * channels;
+    return channels < 3 ? Rgb(v[0]) : Rgb(v[0], v[1], v[2]);
+  }
   // The unit square: u moved by half a texel, so that cells have texels as corners, and v.
   Cell cellAt(Vec2f s) const;
   Vec2f toSquare(Vec3f unit) const;
   Vec3f fromSquare(Vec2f s) const;
-  Rgb at(Vec3f unit) const;
+  Rgb at(Vec3f unit) const { return at(cellAt(toSquare(unit))); }
+  Rgb at(const Cell& cell) const;
 
  private:
   const Image* image_ = nullptr;

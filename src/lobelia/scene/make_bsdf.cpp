@@ -21,7 +21,7 @@ struct Walk {
   const Scene& scene;
   const SurfacePoint& at;
   Vec3f wo;
-  Bsdf bsdf;
+  Bsdf& bsdf;
 
   void add(MaterialHandle handle, float weight, bool twoSided, int depth);
   void addBlend(const Material& material, float weight, bool twoSided, int depth);
@@ -101,13 +101,13 @@ void Walk::add(MaterialHandle handle, float weight, bool twoSided, int depth) {
 }  // namespace
 
 Bsdf makeBsdf(const Scene& scene, const SurfacePoint& at, Vec3f wo, float specularLimit) {
-  Walk walk{scene, at, wo, {}};
-  walk.bsdf.frame = at.frame;
-  walk.bsdf.ng = at.ng;
-  walk.bsdf.baseNormal = at.frame.n;
-  walk.add(at.material, 1, false, 0);
-  classify(walk.bsdf, specularLimit);
-  return walk.bsdf;
+  Bsdf bsdf;
+  bsdf.frame = at.frame;
+  bsdf.ng = at.ng;
+  bsdf.baseNormal = at.frame.n;
+  Walk{scene, at, wo, bsdf}.add(at.material, 1, false, 0);
+  classify(bsdf, specularLimit);
+  return bsdf;
 }
 
 }  // namespace lobelia
