@@ -141,6 +141,7 @@ Scene closedRoom(RoomKind kind, float detail) {
   camera.fovX = 1.2f;
   camera.width = 1024, camera.height = 768;
   camera.filter = PixelFilter::box;
+  camera.focusDistance = camera.farClip;
   scene.cameras.push_back(camera);
   return scene;
 }
