@@ -49,6 +49,7 @@ FlowerPart flowersAt(Vec2f uv, float* tone) {
       const Vec2f centre{static_cast<float>(i + di) + 0.5f + 0.24f * (random(0) - 0.5f),
                          static_cast<float>(j + dj) + 0.5f + 0.24f * (random(1) - 0.5f)};
       const float size = 0.27f + 0.09f * random(2);
+      if (std::hypot(p.x - centre.x, p.y - centre.y) > 1.7f * size) continue;  // beyond its leaves
       const Hit hit = flowerAt((p - centre) * (1 / size), 5 + (x + y) % 2 * 3, kTwoPi * random(3));
       if (hit.part > best.part) best = hit;
     }

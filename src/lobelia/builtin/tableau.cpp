@@ -28,7 +28,7 @@ class Tableau : SceneBuilder {
           floorMaterial(floor), "floor");
     addShapes();
     addLights();
-    addCamera("front", {0.1, 2.35, 5.3}, {0.02, 0.66, 0}, 42.5, 800, 600);
+    addCamera("front", {0.1, 2.35, 5.3}, {-0.05, 0.66, 0}, 44, 800, 600);
     scene().integrator = "path";
     scene().maxDepth = 10;
     return take();
