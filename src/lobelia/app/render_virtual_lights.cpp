@@ -1,273 +1,258 @@
 #include "lobelia/app/render_virtual_lights.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
+#include <optional>
 
+#include "lobelia/app/band_plan.h"
+#include "lobelia/app/sampled_film.h"
 #include "lobelia/bsdf/lobe_kind.h"
 
 namespace lobelia::app {
 namespace {
-
-// Receivers of a band are gathered at once: enough of them to keep all threads busy, few enough
-// for memory.
-constexpr int kBandPixels = 1 << 17;
-
-// Lights on emitters themselves (--direct lights) and lights of bounces, gathered into different
-// layers.
-struct LightParts {
-  VirtualLights direct, indirect;
-};
-
-template <class Light>
-void splitByDepth(const std::vector<Light>& lights, const std::vector<uint32_t>& ends,
-                  std::vector<Light>& direct, std::vector<uint32_t>& directEnds,
-                  std::vector<Light>& indirect, std::vector<uint32_t>& indirectEnds) {
-  const uint32_t n = ends.empty() ? 0 : ends.front();
-  direct.assign(lights.begin(), lights.begin() + n);
-  indirect.assign(lights.begin() + n, lights.end());
-  directEnds.assign(ends.empty() ? 0 : 1, n);
-  indirectEnds = ends;
-  for (uint32_t& end : indirectEnds) end -= n;
-}
-
-LightParts splitLights(const VirtualLights& lights) {
-  LightParts parts;
-  parts.direct.omni = lights.omni;
-  parts.direct.directional = lights.directional;
-  splitByDepth(lights.diffuse, lights.diffuseDepthEnds, parts.direct.diffuse,
-               parts.direct.diffuseDepthEnds, parts.indirect.diffuse,
-               parts.indirect.diffuseDepthEnds);
-  splitByDepth(lights.glossy, lights.glossyDepthEnds, parts.direct.glossy,
-               parts.direct.glossyDepthEnds, parts.indirect.glossy, parts.indirect.glossyDepthEnds);
-  return parts;
-}
-
-// Default clamp of `vpl`: the geometry term of a light nearer than a twentieth of the scene's
-// radius, the customary cure of its spikes.
-float clampValue(const RenderOptions& options, float sceneRadius) {
-  if (options.clamp == "off") return 0;
-  if (options.clamp.empty()) {
-    return options.lights == "vpl" ? kInvPi / sqr(0.05f * std::max(sceneRadius, 1e-6f)) : 0;
-  }
-  float value = 0;
-  const char* end = options.clamp.data() + options.clamp.size();
-  const auto [next, error] = std::from_chars(options.clamp.data(), end, value);
-  if (error != std::errc() || next != end || !(value > 0) || !std::isfinite(value)) {
-    throw UsageError(
-        fmt::format("--clamp '{}' is neither a positive number nor 'off'", options.clamp));
-  }
-  return value;
-}
-
-VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
-                           int set, const RenderOptions& options, Context& context) {
-  LightSettings settings;
-  settings.count = options.lightCount;
-  settings.set = static_cast<uint32_t>(set);
-  settings.maxDepth = maxDepth;
-  settings.specularLimit = options.specularLimit;
-  settings.glossy = options.lights != "vpl";
-  settings.directAsLights = options.direct == "lights";
-  settings.environmentLights = options.environmentLights;
-  if (!options.loadLights.empty()) {
-    const StageTimer timer(context, "lights");  // as makeLights() books its own seconds
-    VirtualLights lights = loadLights(options.loadLights, hash(tracer.scene()));
-    if (lights.model != options.lights) {
-      throw InputError({options.loadLights, 0, 0},
-                       fmt::format("holds lights of model '{}'; render with --lights {}",
-                                   lights.model, lights.model));
-    }
-    requireFit(options.loadLights, lights, settings, tracer.scene());
-    return lights;
-  }
-  VirtualLights lights = makeLights(tracer, emitters, settings, context);
-  lights.model = options.lights;
-  // Lights of a pass that was stopped lack a part of their power: of no use later.
-  if (!options.saveLights.empty() && !context.cancelled()) {
-    lights.sceneHash = hash(tracer.scene());
-    saveLights(options.saveLights, lights);
-  }
-  return lights;
-}
-
-// Rows of every layer of a band, to take back what a cancelled band has added.
-class BandBackup {
- public:
-  BandBackup(Film& film, int y0, int y1) : film_(film), y0_(y0), y1_(y1) {
-    for (const auto& [name, layer] : film.layers) {
-      const auto [begin, end] = range(layer);
-      rows_.emplace_back(layer.values.begin() + begin, layer.values.begin() + end);
-    }
-  }
-  void restore() {
-    size_t i = 0;
-    for (auto& [name, layer] : film_.layers) {
-      std::copy(rows_[i].begin(), rows_[i].end(), layer.values.begin() + range(layer).first);
-      ++i;
-    }
-  }
-
- private:
-  std::pair<ptrdiff_t, ptrdiff_t> range(const Layer& layer) const {
-    const ptrdiff_t row = static_cast<ptrdiff_t>(film_.width) * layer.channels;
-    return {y0_ * row, y1_ * row};
-  }
-  Film& film_;
-  int y0_, y1_;
-  std::vector<std::vector<float>> rows_;
-};
 
 void addToLayer(Film& film, const char* name, size_t pixel, Rgb value) {
   float* p = &film.layers.at(name).values[pixel * 3];
   p[0] += value.x, p[1] += value.y, p[2] += value.z;
 }
 
-void countReceivers(const Receivers& receivers, VirtualLightReport& report) {
-  report.receiverPoints += receivers.points.size();
-  for (const Lobe& lobe : receivers.lobes) {
-    const bool diffuse = isDiffuse(lobe.type) || lobe.type == LobeType::diffuseTransmission;
-    ++(diffuse ? report.diffuseReceivers : report.glossyReceivers);
-  }
-}
-
-// Samples that every row got, when not all: rows are brought to the mean of what they have.
-void finishPartial(Film& film, const std::vector<int>& rowSamples, int sampleCount) {
-  if (std::all_of(rowSamples.begin(), rowSamples.end(), [&](int n) { return n == sampleCount; }))
-    return;
-  if (film.alpha.empty()) film.alpha.assign(film.pixelCount(), 1.f);
-  const size_t width = static_cast<size_t>(film.width);
-  for (size_t y = 0; y < rowSamples.size(); ++y) {
-    const int n = rowSamples[y];
-    if (n == 0) std::fill_n(film.alpha.begin() + static_cast<ptrdiff_t>(y * width), width, 0.f);
-    if (n == 0 || n == sampleCount) continue;
-    for (auto& [name, layer] : film.layers) {
-      const size_t row = width * static_cast<size_t>(layer.channels);
-      for (size_t i = 0; i < row; ++i) {
-        layer.values[y * row + i] *= static_cast<float>(sampleCount) / static_cast<float>(n);
-      }
-    }
-  }
-}
-
-// Variance of the mean over the samples of a pixel, from the picture after each sample. Samples
-// that gather the same lights share those lights' error, which does not show in it.
-class VarianceMeter {
+// Sample by sample, band by band: the band's receivers, then runs of them gathered. Between runs a
+// render may stop or be saved, and another run of the program goes on there.
+class VirtualLightRender {
  public:
-  explicit VarianceMeter(Film& film) : film_(film), used_(film.layers.contains("variance")) {
-    if (!used_) return;
-    previous_.assign(film.pixelCount() * 3, 0.f);
-    squares_.assign(film.pixelCount() * 3, 0.);
+  VirtualLightRender(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+                     const PixelSet& pixels, int maxDepth, const RenderOptions& options, Film& film,
+                     Checkpoints* checkpoints, Context& context)
+      : tracer_(tracer),
+        emitters_(emitters),
+        camera_(camera),
+        options_(options),
+        maxDepth_(maxDepth),
+        film_(film),
+        checkpoints_(checkpoints),
+        context_(context) {
+    report_.lights = obtainLights(tracer, emitters, maxDepth, 0, options, context);
+    parts_ = splitLights(report_.lights);
+    plan_ = planBands(tracer, pixels, maxDepth, report_.lights.size(), options, film);
+    report_.sets = plan_.sets;
+    rowSamples_.assign(static_cast<size_t>(film.height), 0);
+    variance_.emplace(film);
+    backup_.emplace(film, plan_.bandRows);
   }
-  void afterSample(int sampleCount) {
-    if (!used_) return;
-    const auto& d = film_.layers.at("direct").values;
-    const auto& i = film_.layers.at("indirect").values;
-    for (size_t k = 0; k < previous_.size(); ++k) {
-      const double sample = static_cast<double>(d[k] + i[k] - previous_[k]) * sampleCount;
-      squares_[k] += sample * sample;
-      previous_[k] = d[k] + i[k];
+
+  VirtualLightReport run() {
+    resume();
+    while (at_.sample < plan_.eye.sampleCount && renderSample()) {
+      variance_->afterSample(plan_.eye.sampleCount);
+      ++at_.sample;
+      at_.band = 0;
     }
-  }
-  // rowSamples: how many samples every row got.
-  void finish(const std::vector<int>& rowSamples, int sampleCount) {
-    if (!used_) return;
-    auto& out = film_.layers.at("variance").values;
-    const size_t row = static_cast<size_t>(film_.width) * 3;
-    for (size_t k = 0; k < out.size(); ++k) {
-      const double n = rowSamples[k / row];
-      if (n < 2) continue;
-      const double mean = static_cast<double>(previous_[k]) * sampleCount / n;
-      out[k] = static_cast<float>(std::max(squares_[k] / n - mean * mean, 0.) / (n - 1));
-    }
+    save();
+    finish();
+    return std::move(report_);
   }
 
  private:
+  // What comes next.
+  struct Position {
+    int32_t sample = 0, band = 0;
+    uint32_t traced = 0;  // 1: the band's receivers have added what they add
+    uint32_t unused = 0;
+    uint64_t point = 0;  // receivers before it have gathered
+  };
+
+  bool stopped() const {
+    const double seconds = static_cast<double>(nanosecondsNow() - start_) * 1e-9;
+    return context_.cancelled() || (options_.timeLimit > 0 && seconds > options_.timeLimit);
+  }
+
+  void useLights(int set) {
+    if (set == set_) return;
+    parts_ = splitLights(obtainLights(tracer_, emitters_, maxDepth_, set, options_, context_));
+    if (context_.cancelled()) return;
+    set_ = set;
+    markCounts();
+  }
+
+  // These return false when stopped before their end.
+  bool renderSample() {
+    if (stopped()) return false;
+    plan_.eye.sample = at_.sample;
+    useLights(plan_.set(at_.sample));
+    while (at_.band < plan_.bands) {
+      if (stopped() || !renderBand()) return false;
+      saveWhenDue();
+    }
+    return true;
+  }
+
+  bool renderBand() {
+    const auto [y0, y1] = plan_.rows(at_.band, film_);
+    const std::optional<Receivers> receivers = traceBand(y0, y1);
+    if (!receivers || !gatherBand(*receivers)) return false;
+    for (int y = y0; y < y1; ++y) ++rowSamples_[static_cast<size_t>(y)];
+    at_ = {.sample = at_.sample, .band = at_.band + 1};
+    context_.progress("render", (at_.sample + static_cast<double>(at_.band) / plan_.bands) /
+                                    plan_.eye.sampleCount);
+    return true;
+  }
+
+  std::optional<Receivers> traceBand(int y0, int y1) {
+    if (resumed_) return std::exchange(resumed_, std::nullopt);
+    backup_->take(y0, y1);
+    Receivers receivers =
+        traceReceivers(tracer_, emitters_, camera_, plan_.eye, y0, y1, film_, context_);
+    if (context_.cancelled()) {
+      backup_->restore(y0, y1);
+      return {};
+    }
+    at_.traced = 1;
+    countReceivers(receivers);
+    markCounts();
+    return receivers;
+  }
+
+  void countReceivers(const Receivers& receivers) {
+    report_.receiverPoints += receivers.points.size();
+    for (const Lobe& lobe : receivers.lobes) {
+      const bool diffuse = isDiffuse(lobe.type) || lobe.type == LobeType::diffuseTransmission;
+      ++(diffuse ? report_.diffuseReceivers : report_.glossyReceivers);
+    }
+  }
+
+  bool gatherBand(const Receivers& receivers) {
+    const size_t points = receivers.points.size(), length = runLength(parts_.size());
+    while (at_.point < points) {
+      const size_t end = std::min<size_t>(at_.point + length, points);
+      const bool whole = at_.point == 0 && end == points;
+      if (!gatherRun(whole ? receivers : slice(receivers, at_.point, end))) return false;
+      at_.point = end;
+      markCounts();
+      if (end == points) break;
+      saveWhenDue();
+      if (stopped()) return false;
+    }
+    return true;
+  }
+
+  // Adds all of the run or nothing.
+  bool gatherRun(const Receivers& run) {
+    std::vector<Rgb> direct(run.points.size()), indirect(run.points.size());
+    gather(run, parts_.direct, direct);
+    if (options_.component != "direct") gather(run, parts_.indirect, indirect);
+    if (context_.cancelled()) return false;
+    for (size_t i = 0; i < run.points.size(); ++i) {
+      const ReceiverPoint& point = run.points[i];
+      addToLayer(film_, point.primary ? "direct" : "indirect", point.pixel, direct[i]);
+      addToLayer(film_, "indirect", point.pixel, indirect[i]);
+    }
+    return true;
+  }
+
+  void gather(const Receivers& run, const VirtualLights& lights, std::span<Rgb> radiance) {
+    if (lights.size() > 0) gatherAll(tracer_, run, lights, plan_.gather, radiance, context_);
+  }
+
+  StateFields state() {
+    StateFields fields;
+    fields.addValue("position", at_);
+    fields.addValue("light-set", set_);
+    fields.add("row-samples", rowSamples_);
+    fields.addValue("diffuse-receivers", report_.diffuseReceivers);
+    fields.addValue("glossy-receivers", report_.glossyReceivers);
+    fields.addValue("receiver-points", report_.receiverPoints);
+    addFields(fields, film_);
+    variance_->addFields(fields);
+    backup_->addFields(fields);
+    return fields;
+  }
+
+  void saveWhenDue() {
+    if (checkpoints_ && checkpoints_->due()) save();
+  }
+  void save() {
+    if (checkpoints_) checkpoints_->save(kStage, state());
+  }
+
+  void markCounts() {
+    if (checkpoints_) checkpoints_->markCounts();
+  }
+
+  // Lights and receivers are made again: they are the same.
+  void resume() {
+    if (checkpoints_ && checkpoints_->load(kStage, state())) {
+      requirePosition();
+      useLights(std::exchange(set_, 0));
+      if (at_.traced != 0) resumed_ = traceAgain();
+      checkpoints_->restoreCounts();
+    }
+    markCounts();
+  }
+
+  void requirePosition() const {
+    const bool good = at_.sample >= 0 && at_.sample <= plan_.eye.sampleCount && at_.band >= 0 &&
+                      at_.band + static_cast<int>(at_.traced) <= plan_.bands && at_.traced <= 1 &&
+                      set_ >= 0 && set_ < plan_.sets;
+    if (!good) throw InputError({}, "the checkpoint's position is out of range; start afresh");
+  }
+
+  Receivers traceAgain() {
+    plan_.eye.sample = at_.sample;
+    Film shape;  // without layers: what the receivers add is there already
+    shape.fullWidth = film_.fullWidth, shape.fullHeight = film_.fullHeight;
+    shape.x0 = film_.x0, shape.y0 = film_.y0;
+    shape.width = film_.width, shape.height = film_.height;
+    const auto [y0, y1] = plan_.rows(at_.band, film_);
+    return traceReceivers(tracer_, emitters_, camera_, plan_.eye, y0, y1, shape, context_);
+  }
+
+  void finish() {
+    const int samples = plan_.eye.sampleCount;
+    if (at_.sample < samples) {
+      if (at_.traced != 0) {
+        const auto [y0, y1] = plan_.rows(at_.band, film_);
+        backup_->restore(y0, y1);
+      }
+      variance_->afterSample(samples);
+      if (!context_.cancelled() &&
+          std::find(rowSamples_.begin(), rowSamples_.end(), 0) != rowSamples_.end()) {
+        context_.warning("--time-limit ended before every pixel had a sample; these have alpha 0");
+      }
+    }
+    finishPartial(film_, rowSamples_, samples);
+    variance_->finish(rowSamples_, samples);
+  }
+
+  static constexpr const char* kStage = "virtual lights";
+  const Tracer& tracer_;
+  const EmitterSampler& emitters_;
+  const Camera& camera_;
+  const RenderOptions& options_;
+  const int maxDepth_;
   Film& film_;
-  bool used_;
-  std::vector<float> previous_;
-  std::vector<double> squares_;
+  Checkpoints* const checkpoints_;
+  Context& context_;
+  const int64_t start_ = nanosecondsNow();
+
+  int set_ = 0;
+  LightParts parts_;
+  BandPlan plan_;
+  Position at_;
+  std::vector<int> rowSamples_;
+  std::optional<VarianceMeter> variance_;
+  std::optional<BandBackup> backup_;
+  std::optional<Receivers> resumed_;  // of the band in which the checkpoint was made
+  VirtualLightReport report_;
 };
 
 }  // namespace
 
 VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSampler& emitters,
                                        const Camera& camera, const PixelSet& pixels, int maxDepth,
-                                       const RenderOptions& options, Film& film, Context& context) {
-  const int64_t start = nanosecondsNow();
-  GatherSettings gather;
-  gather.clamp = clampValue(options, tracer.bounds().radius());
-  gather.maxDepth = maxDepth;
-  gather.direct = options.direct == "lights";
-  VirtualLightReport report;
-  report.lights = obtainLights(tracer, emitters, maxDepth, 0, options, context);
-  LightParts parts = splitLights(report.lights);
-
-  EyeSettings eye;
-  eye.sampleCount = options.spp > 0 ? options.spp : 16;
-  eye.maxDepth = maxDepth;
-  eye.specularLimit = options.specularLimit;
-  if (options.direct == "lights") eye.directSamples = 0;
-  eye.hideEmitters = tracer.scene().hideEmitters;
-  eye.pixels = pixels;
-
-  const int bandRows = std::clamp(kBandPixels / std::max(film.width, 1) / 8 * 8, 8, 4096);
-  const int bands = (film.height + bandRows - 1) / bandRows;
-  std::vector<int> rowSamples(static_cast<size_t>(film.height), 0);
-  VarianceMeter variance(film);
-  const auto outOfTime = [&] {
-    return options.timeLimit > 0 &&
-           static_cast<double>(nanosecondsNow() - start) * 1e-9 > options.timeLimit;
-  };
-  const auto stop = [&] { return context.cancelled() || outOfTime(); };
-  std::vector<Rgb> radiance;
-  const auto gatherInto = [&](const Receivers& receivers, const VirtualLights& lights,
-                              bool direct) {
-    if (lights.size() == 0 || receivers.points.empty()) return;
-    radiance.assign(receivers.points.size(), Rgb{});
-    gatherAll(tracer, receivers, lights, gather, radiance, context);
-    for (size_t i = 0; i < radiance.size(); ++i) {
-      const ReceiverPoint& point = receivers.points[i];
-      addToLayer(film, direct && point.primary ? "direct" : "indirect", point.pixel, radiance[i]);
-    }
-  };
-
-  const bool oneSet = !options.saveLights.empty() || !options.loadLights.empty();
-  const int passes = options.passes > 0 ? options.passes : oneSet ? 1 : eye.sampleCount;
-  report.sets = std::min(passes, eye.sampleCount);
-  int set = 0;
-  for (eye.sample = 0; eye.sample < eye.sampleCount && !stop(); ++eye.sample) {
-    const int wanted = static_cast<int>(int64_t{eye.sample} * report.sets / eye.sampleCount);
-    if (wanted != set) {
-      set = wanted;
-      parts = splitLights(obtainLights(tracer, emitters, maxDepth, set, options, context));
-    }
-    for (int band = 0; band < bands && !stop(); ++band) {
-      const int y0 = band * bandRows, y1 = std::min(y0 + bandRows, film.height);
-      BandBackup backup(film, y0, y1);
-      const Receivers receivers =
-          traceReceivers(tracer, emitters, camera, eye, y0, y1, film, context);
-      countReceivers(receivers, report);
-      gatherInto(receivers, parts.direct, true);
-      if (options.component != "direct") gatherInto(receivers, parts.indirect, false);
-      if (context.cancelled()) {
-        backup.restore();
-        break;
-      }
-      for (int y = y0; y < y1; ++y) ++rowSamples[static_cast<size_t>(y)];
-      context.progress("render",
-                       (eye.sample + static_cast<double>(band + 1) / bands) / eye.sampleCount);
-    }
-    variance.afterSample(eye.sampleCount);
-  }
-  if (outOfTime() && !context.cancelled() &&
-      std::find(rowSamples.begin(), rowSamples.end(), 0) != rowSamples.end()) {
-    context.warning("--time-limit ended before every pixel had a sample; these have alpha 0");
-  }
-  finishPartial(film, rowSamples, eye.sampleCount);
-  variance.finish(rowSamples, eye.sampleCount);
-  return report;
+                                       const RenderOptions& options, Film& film, Context& context,
+                                       Checkpoints* checkpoints) {
+  return VirtualLightRender(tracer, emitters, camera, pixels, maxDepth, options, film, checkpoints,
+                            context)
+      .run();
 }
 
 }  // namespace lobelia::app

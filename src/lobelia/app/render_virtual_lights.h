@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lobelia/app/render_options.h"
+#include "lobelia/base/checkpoints.h"
 #include "lobelia/film/film.h"
 #include "lobelia/gather/gather.h"
 #include "lobelia/lights/light_pass.h"
@@ -15,9 +16,11 @@ struct VirtualLightReport {  // for --stats
 };
 
 // Adds to film's layers "direct" and "indirect" (and AOVs). When cancelled or out of time, every
-// pixel holds the mean of the samples it got; pixels without any have alpha 0.
+// pixel holds the mean of the samples it got; pixels without any have alpha 0. checkpoints: where
+// to save the state and to go on from; null: nowhere.
 VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSampler& emitters,
                                        const Camera& camera, const PixelSet& pixels, int maxDepth,
-                                       const RenderOptions& options, Film& film, Context& context);
+                                       const RenderOptions& options, Film& film, Context& context,
+                                       Checkpoints* checkpoints = nullptr);
 
 }  // namespace lobelia::app

@@ -1,0 +1,55 @@
+#include "lobelia/app/band_plan.h"
+
+#include <algorithm>
+
+namespace lobelia::app {
+namespace {
+
+// Receivers of a band are traced at once: enough of them to keep all threads busy, few enough for
+// memory.
+constexpr size_t kBandPixels = 1 << 17;
+// Pairs of receiver and light between looks at the clock: about 15 s of two cores.
+constexpr size_t kPairs = 300'000'000;
+constexpr size_t kRunStep = 128;  // receivers: whole packets of them
+
+}  // namespace
+
+BandPlan planBands(const Tracer& tracer, const PixelSet& pixels, int maxDepth, size_t lights,
+                   const RenderOptions& options, const Film& film) {
+  BandPlan plan;
+  plan.gather.clamp = clampValue(options, tracer.bounds().radius());
+  plan.gather.maxDepth = maxDepth;
+  plan.gather.direct = options.direct == "lights";
+
+  plan.eye.sampleCount = options.spp > 0 ? options.spp : 16;
+  plan.eye.maxDepth = maxDepth;
+  plan.eye.specularLimit = options.specularLimit;
+  if (options.direct == "lights") plan.eye.directSamples = 0;
+  plan.eye.hideEmitters = tracer.scene().hideEmitters;
+  plan.eye.pixels = pixels;
+
+  plan.sets = lightSetCount(options, plan.eye.sampleCount);
+  const size_t bandPixels = std::min(kBandPixels, kPairs / std::max<size_t>(lights, 1));
+  const size_t width = static_cast<size_t>(std::max(film.width, 1));
+  plan.bandRows = static_cast<int>(std::clamp<size_t>(bandPixels / width / 8 * 8, 8, 4096));
+  plan.bands = (film.height + plan.bandRows - 1) / plan.bandRows;
+  return plan;
+}
+
+size_t runLength(size_t lights) {
+  return std::max<size_t>(kPairs / std::max<size_t>(lights, 1) / kRunStep, 1) * kRunStep;
+}
+
+Receivers slice(const Receivers& all, size_t begin, size_t end) {
+  Receivers part;
+  part.points.assign(all.points.begin() + static_cast<ptrdiff_t>(begin),
+                     all.points.begin() + static_cast<ptrdiff_t>(end));
+  for (ReceiverPoint& point : part.points) {
+    const auto first = all.lobes.begin() + static_cast<ptrdiff_t>(point.firstLobe);
+    point.firstLobe = static_cast<uint32_t>(part.lobes.size());
+    part.lobes.insert(part.lobes.end(), first, first + point.lobeCount);
+  }
+  return part;
+}
+
+}  // namespace lobelia::app

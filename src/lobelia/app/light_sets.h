@@ -1,0 +1,26 @@
+// The independent sets of virtual lights of a picture (--passes), made one after the other or read
+// from a file.
+#pragma once
+
+#include "lobelia/app/render_options.h"
+#include "lobelia/lights/light_pass.h"
+
+namespace lobelia::app {
+
+// Lights on emitters themselves (--direct lights) and lights of bounces, gathered into different
+// layers.
+struct LightParts {
+  VirtualLights direct, indirect;
+  size_t size() const { return direct.size() + indirect.size(); }
+};
+
+VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
+                           int set, const RenderOptions& options, Context& context);
+LightParts splitLights(const VirtualLights& lights);
+// How many sets the samples of a pixel share, and which of them a sample gathers.
+int lightSetCount(const RenderOptions& options, int sampleCount);
+int lightSetOf(int sample, int sampleCount, int setCount);
+// --clamp; 0: off.
+float clampValue(const RenderOptions& options, float sceneRadius);
+
+}  // namespace lobelia::app
