@@ -1,6 +1,7 @@
 // What holds for every built-in scene of the table.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "io/scene_text.h"
@@ -24,6 +25,14 @@ class EveryBuiltinScene : public testing::TestWithParam<size_t> {
   }
 };
 
+// Around the first place where two texts differ; "" when they do not.
+std::string firstDifference(const std::string& a, const std::string& b) {
+  const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  if (x == a.end() && y == b.end()) return "";
+  const size_t at = static_cast<size_t>(x - a.begin()), begin = at < 80 ? 0 : at - 80;
+  return a.substr(begin, 160) + " <> " + b.substr(begin, 160);
+}
+
 TEST_P(EveryBuiltinScene, HasTheDocumentedNumberOfTriangles) {
   if (isVariant()) GTEST_SKIP() << "the geometry of another scene";
   const Scene scene = builtin::builtinScene(entry().name, 1);
@@ -41,7 +50,7 @@ TEST_P(EveryBuiltinScene, ComesBackFromAFile) {
   Context context;
   const Scene copy = io::readMitsuba(folder.path("scene/scene.xml"), {}, context);
   for (const Finding& f : copy.findings) ADD_FAILURE() << toString(f.where) << ": " << f.message;
-  EXPECT_TRUE(test::SceneText(copy).all() == test::SceneText(scene).all());
+  EXPECT_EQ(firstDifference(test::SceneText(copy).all(), test::SceneText(scene).all()), "");
   EXPECT_EQ(copy.cameras.size(), scene.cameras.size());
 }
 

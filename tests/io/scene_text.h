@@ -143,7 +143,8 @@ class SceneText {
   }
   static std::string matrix(const Mat4& m) {
     std::string out;
-    for (const auto& row : m.m) out += fmt::format("{} ", fmt::join(row, " "));
+    for (const auto& row : m.m)
+      for (const double x : row) out += fmt::format("{} ", x + 0.0);  // -0 is 0
     return out;
   }
   std::string color(const ColorParam& c) const {

@@ -27,14 +27,16 @@ Material phong(Rgb base, Rgb gloss, float exponent) {
   m.type = MaterialType::phong;
   m.diffuse = base;
   m.specular = gloss;
-  m.alphaU = exponent;
+  m.alphaU = m.alphaV = exponent;
   return m;
 }
 Material metal(Rgb reflectance, float alpha) {
   Material m;
-  m.type = alpha > 0 ? MaterialType::roughConductor : MaterialType::conductor;
-  m.distribution = Distribution::ggx;
   m.specular = reflectance;
+  m.type = MaterialType::conductor;
+  if (alpha == 0) return m;
+  m.type = MaterialType::roughConductor;
+  m.distribution = Distribution::ggx;
   m.alphaU = m.alphaV = alpha;
   return m;
 }
@@ -109,6 +111,7 @@ class StudyBox {
     camera.name = "front";
     camera.toWorld = Transform(*lookAt({0, 0, 0.92}, {0, -0.1, -1}, {0, 1, 0}));
     camera.fovX = 1.4f;
+    camera.focusDistance = 1.9f;  // of the back wall
     camera.nearClip = 1e-3f, camera.farClip = 100;
     camera.width = camera.height = 256;
     camera.filter = PixelFilter::box;
