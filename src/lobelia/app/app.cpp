@@ -12,7 +12,10 @@
 
 #include "lobelia/app/bench.h"
 #include "lobelia/app/commands.h"
+#include "lobelia/app/docs/command_texts.h"
+#include "lobelia/app/docs/docs_command.h"
 #include "lobelia/app/methods.h"
+#include "lobelia/app/option_checks.h"
 #include "lobelia/app/render.h"
 #include "lobelia/builtin/builtin_scenes.h"
 #include "lobelia/io/scene_io.h"
@@ -37,8 +40,10 @@ struct CommandLine {
   InfoOptions info;
   ConvertOptions scene, convert;
   BenchOptions bench;
+  CompletionOptions completion;
+  DocsOptions docs;
   CLI::App *renderCommand, *compareCommand, *infoCommand, *methodsCommand, *sceneCommand,
-      *convertCommand, *benchCommand, *fitCommand;
+      *convertCommand, *benchCommand, *fitCommand, *completionCommand, *docsCommand;
 
   CommandLine() {
     app.set_version_flag("--version", std::string("lobelia ") + kVersion);
@@ -47,19 +52,29 @@ struct CommandLine {
     renderCommand = app.add_subcommand("render", "Render a scene to a picture");
     addRenderOptions(*renderCommand, render);
     compareCommand = app.add_subcommand("compare", "Error of an image against a reference");
-    compareCommand->add_option("image", compare.image)->required();
-    compareCommand->add_option("reference", compare.reference)->required();
-    compareCommand->add_option(
-        "--reference2", compare.reference2,
-        "Independent second reference: removes the references' noise from l2");
-    compareCommand->add_option("--mask", compare.mask,
-                               "Compare only where this image is above 0.5");
-    compareCommand->add_option("--diff", compare.diff, "Write a difference picture (FLIP) as PNG");
+    compareCommand->add_option("image", compare.image, "Image to judge")
+        ->type_name("FILE")
+        ->required();
+    compareCommand->add_option("reference", compare.reference, "What it should be")
+        ->type_name("FILE")
+        ->required();
+    compareCommand
+        ->add_option("--reference2", compare.reference2,
+                     "Independent second reference: removes the references' noise from l2")
+        ->type_name("FILE");
+    compareCommand->add_option("--mask", compare.mask, "Compare only where this image is above 0.5")
+        ->type_name("FILE");
+    compareCommand->add_option("--diff", compare.diff, "Write a difference picture (FLIP) as PNG")
+        ->type_name("FILE");
     compareCommand->add_flag("--json", compare.json, "Print JSON");
     fitCommand = app.add_subcommand("fit", "Fit captured reflectance to a table of MERL");
-    fitCommand->add_option("table", fit.table, "MERL table (.binary)")->required();
-    fitCommand->add_option("-o,--output", fit.output, "Material: .xml to include, or .json");
+    fitCommand->add_option("table", fit.table, "MERL table (.binary)")
+        ->type_name("FILE")
+        ->required();
+    fitCommand->add_option("-o,--output", fit.output, "Material: .xml to include, or .json")
+        ->type_name("FILE");
     fitCommand->add_option("--lobes", fit.lobes, "Spherical Gaussians, at most")
+        ->type_name("N")
         ->capture_default_str();
     fitCommand->add_flag("--json", fit.json, "Print JSON");
     infoCommand = app.add_subcommand("info", "Validate and describe a scene, with all warnings");
@@ -67,28 +82,43 @@ struct CommandLine {
     infoCommand->add_flag("--json", info.json, "Print JSON");
     methodsCommand =
         app.add_subcommand("methods", "Light models, gather strategies, what combines");
-    sceneCommand =
-        app.add_subcommand("scene", fmt::format("Write a built-in scene as Mitsuba XML: {}",
-                                                fmt::join(builtin::builtinSceneNames(), ", ")));
+    sceneCommand = app.add_subcommand("scene", "Write a built-in scene as Mitsuba XML");
     addSceneOptions(*sceneCommand, scene.scene);
-    sceneCommand->add_option("-o,--output", scene.folder, "Folder to write")->required();
+    sceneCommand->get_option("scene")
+        ->type_name("SCENE")
+        ->check(offered(builtin::builtinSceneNames()))
+        ->description("Built-in scene");
+    sceneCommand->add_option("-o,--output", scene.folder, "Folder to write")
+        ->type_name("FOLDER")
+        ->required();
     convertCommand = app.add_subcommand("convert", "Write any readable scene as Mitsuba XML");
     addSceneOptions(*convertCommand, convert.scene);
-    convertCommand->add_option("-o,--output", convert.folder, "Folder to write")->required();
+    convertCommand->add_option("-o,--output", convert.folder, "Folder to write")
+        ->type_name("FOLDER")
+        ->required();
     benchCommand = app.add_subcommand("bench", "Regenerate a table of docs/performance.md");
     addBenchOptions(*benchCommand, bench);
     for (CLI::App* command : app.get_subcommands({})) {
       addGlobalOptions(*command, global);
       refuseEmptyValues(*command);
+      command->footer(exampleFooter(command->get_name()));
     }
+    completionCommand = app.add_subcommand("completion", "Print a script for a shell's completion");
+    completionCommand->footer(exampleFooter("completion"));
+    addCompletionOptions(*completionCommand, completion);
+    app.footer(exampleFooter(""));
+    docsCommand = app.add_subcommand("docs", "Print documents")->group("");
+    addDocsOptions(*docsCommand, docs);
   }
 
   // CLI11 says of an unknown command only that one is required.
   void requireKnownCommand(int argc, char** argv) const {
     if (argc < 2 || argv[1][0] == '-') return;
     std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-    if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+    for (const CLI::App* command : app.get_subcommands({})) {
+      if (command->get_name() == argv[1]) return;
+      if (!command->get_group().empty()) names.push_back(command->get_name());
+    }
     throw UsageError(fmt::format("'{}' is not a command; there are {}{}", argv[1],
                                  fmt::join(names, ", "), suggestion(argv[1], names)));
   }
@@ -116,6 +146,8 @@ struct CommandLine {
     }
     if (*convertCommand) return app::convert(convert, global);
     if (*benchCommand) return app::bench(bench, global, text);
+    if (*completionCommand) return app::completion(completion, app);
+    if (*docsCommand) return app::docs(docs, app);
     fmt::print("{}", methodTable());
     return ExitCode::done;
   }

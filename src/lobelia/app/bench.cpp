@@ -8,6 +8,7 @@
 
 #include "lobelia/app/bench_studies.h"
 #include "lobelia/app/frame_setup.h"
+#include "lobelia/app/option_checks.h"
 #include "lobelia/app/signals.h"
 #include "lobelia/base/file.h"
 #include "lobelia/base/parallel.h"
@@ -62,37 +63,52 @@ class StudyListener : public Listener {
 }  // namespace
 
 void addBenchOptions(CLI::App& c, BenchOptions& o) {
-  std::string names;
+  std::string summaries;
   for (const Study& study : kStudies) {
-    names += fmt::format("{}{} ({})", names.empty() ? "" : "; ", study.name, study.summary);
+    summaries += fmt::format("; {}: {}", study.name, study.summary);
   }
-  c.add_option("name", o.name, names)->required();
+  c.add_option("name", o.name, "Study to run" + summaries)
+      ->type_name("STUDY")
+      ->check(offered(studyNames()))
+      ->required();
   c.add_option("--scene", o.scene.scene,
-               "Run the study on this scene file or built-in scene instead of its own");
-  c.add_option("--json", o.json, "Write the tables as JSON");
+               "Run the study on this scene file or built-in scene instead of its own")
+      ->type_name("FILE|SCENE");
+  c.add_option("--json", o.json, "Write the tables as JSON")->type_name("FILE");
   c.add_option("-D,--define", o.scene.definitions, "name=value for a scene's $name")
+      ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   c.add_option("--environment", o.scene.environment,
-               "Equirectangular HDR image that lights the scene");
+               "Equirectangular HDR image that lights the scene")
+      ->type_name("FILE");
   c.add_flag("--strict", o.scene.strict, "Warnings about the scene are errors");
   c.add_option("--detail", o.scene.detail, "Tessellation of built-in scenes")
-      ->check(CLI::Range(0.01, 100.0))
+      ->type_name("X")
+      ->check(finiteNumber(0.01, 100))
       ->capture_default_str();
-  c.add_option("--camera", o.camera, "Camera by name or index (from 0)");
-  c.add_option("--size", o.size, "WxH in pixels");
+  c.add_option("--camera", o.camera, "Camera by name or index (from 0)")->type_name("NAME");
+  c.add_option("--size", o.size, "WxH in pixels")->type_name("WxH");
   c.add_option("--pixels", o.pixels, "clamp, convergence: pixels compared, spread over the image")
-      ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 32));
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 32));
   c.add_option("--max-depth", o.maxDepth, "As for render; default: the scene's, else unlimited")
-      ->check(CLI::Range(1, 1 << 20));
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 20));
   c.add_option("--num-lights", o.lightCount,
                "Virtual lights in a set (convergence: in the largest set)")
-      ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 31));
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 31));
   c.add_option("--spp", o.spp, "Samples per pixel of the path tracer")
-      ->check(CLI::Range(1, 1 << 24));
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 24));
   c.add_option("--sets", o.sets,
                "clamp, convergence: independent sets of lights of a size; rates: turns")
-      ->check(CLI::Range(2, 1 << 20));
-  c.add_option("--seed", o.seed, "Seed of all randomness")->capture_default_str();
+      ->type_name("N")
+      ->check(integerRange(2, int64_t{1} << 20));
+  c.add_option("--seed", o.seed, "Seed of all randomness")
+      ->type_name("N")
+      ->check(seedNumber())
+      ->capture_default_str();
 }
 
 ExitCode bench(const BenchOptions& options, const GlobalOptions& global,

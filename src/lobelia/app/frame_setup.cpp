@@ -32,12 +32,6 @@ std::array<int, N> parseIntegers(const std::string& text, char separator, const 
   return out;
 }
 
-const std::vector<std::string>& knownLayers() {
-  static const std::vector<std::string> names{"albedo",   "normal",   "depth",   "direct",
-                                              "indirect", "specular", "variance"};
-  return names;
-}
-
 std::vector<std::string> requestedLayers(const RenderOptions& options) {
   std::vector<std::string> out;
   size_t begin = 0;
@@ -71,6 +65,12 @@ void requireMemory(const Camera& camera, size_t channels) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& knownLayers() {
+  static const std::vector<std::string> names{"albedo",   "normal",   "depth",   "direct",
+                                              "indirect", "specular", "variance"};
+  return names;
+}
 
 Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
   const Camera* chosen = options.camera.empty() ? &scene.cameras.front() : nullptr;

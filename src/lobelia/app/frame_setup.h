@@ -9,6 +9,8 @@ namespace lobelia::app {
 
 Camera chooseCamera(const Scene& scene, const RenderOptions& options);
 PixelSet choosePixels(const Camera& camera, const RenderOptions& options);
+// What --aov may name.
+const std::vector<std::string>& knownLayers();
 // Layers: "direct" and "indirect" always (the picture is their sum), others as --aov says.
 Film makeFilm(const Camera& camera, const RenderOptions& options);
 // Fills the picture from "direct" and "indirect" as --component says; drops layers not asked for.

@@ -48,6 +48,9 @@ const T& find(const std::vector<T>& items, const std::string& name, const char* 
 
 }  // namespace
 
+std::vector<std::string> lightModelNames() { return names(lightModels()); }
+std::vector<std::string> gatherStrategyNames() { return names(gatherStrategies()); }
+
 void requireMethod(const std::string& lights, const std::string& gather) {
   const LightModel& model = find(lightModels(), lights, "--lights");
   find(gatherStrategies(), gather, "--gather");

@@ -17,6 +17,9 @@ struct GatherStrategy {
 const std::vector<LightModel>& lightModels();
 const std::vector<GatherStrategy>& gatherStrategies();
 
+std::vector<std::string> lightModelNames();
+std::vector<std::string> gatherStrategyNames();
+
 // Throws UsageError with the nearest known name, or with what combines.
 void requireMethod(const std::string& lights, const std::string& gather);
 std::string methodTable();

@@ -1,0 +1,111 @@
+#include "lobelia/app/docs/command_texts.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "lobelia/base/error.h"
+
+namespace lobelia::app {
+namespace {
+
+const std::map<std::string, CommandTexts>& texts() {
+  static const std::map<std::string, CommandTexts> table{
+      {"",
+       {"Lobelia renders global illumination in glossy scenes with virtual lights: diffuse ones "
+        "and "
+        "spherical Gaussians. It brings the path tracer to judge the result by.\n\n"
+        "Each command has a page of its own. A SCENE is a file (Mitsuba XML, PBRT-v4, glTF 2.0, "
+        "OBJ, "
+        "PLY) or the name of a built-in scene.",
+        {},
+        {{"lobelia render kitchen --spp 64 -o kitchen.exr -o kitchen.png",
+          "Render a built-in scene to a linear and to a tone-mapped picture"},
+         {"lobelia info scene.gltf", "See what is in a scene and what of it is not supported"}}}},
+      {"render",
+       {"Renders a scene and writes one or several pictures. Files are written whole or not at "
+        "all. "
+        "The same seed gives the same pixels for any number of threads.\n\n"
+        "SIGINT and SIGTERM stop a render; what there is is written.",
+        {{"*.exr",
+          "Scene-linear RGB (sRGB primaries, 32-bit float), the layers of --aov, and metadata"},
+         {"*.png", "Tone-mapped by Reinhard's global operator, sRGB"}},
+        {{"lobelia render scene.xml -o picture.exr -o picture.png", "Glossy virtual lights"},
+         {"lobelia render scene.xml --lights path --spp 256 -o reference.exr",
+          "The same by path tracing"},
+         {"lobelia render teapot --sky 3,1,0.5,1 -o teapot.png",
+          "A built-in scene under sun and sky"}}}},
+      {"compare",
+       {"Prints errors of an image against a reference over the pixels that both have: rmse, "
+        "relmse, "
+        "l2, mae, flip, mean_ratio, and the number of values that are not finite.",
+        {},
+        {{"lobelia compare picture.exr reference.exr --diff difference.png",
+          "Print the errors and write the FLIP map"}}}},
+      {"fit",
+       {"Fits a diffuse part and spherical Gaussians to a measured isotropic reflectance in the "
+        "format of the MERL database and prints the error.",
+        {{"*.binary", "Table of the MERL database"},
+         {"*.xml", "Material to be included in a scene"},
+         {"*.json", "The fit's numbers"}},
+        {{"lobelia fit gold-metallic-paint.binary -o gold.xml --lobes 3",
+          "Write a material of three lobes"}}}},
+      {"info",
+       {"Validates a scene and describes it, with all warnings.",
+        {},
+        {{"lobelia info scene.pbrt --json", "Describe a scene as JSON"}}}},
+      {"methods", {"Prints the light models, the gather strategies and which combine.", {}, {}}},
+      {"scene",
+       {"Writes a built-in scene as Mitsuba XML with PLY meshes and image files beside it.",
+        {{"FOLDER/scene.xml", "The scene"}},
+        {{"lobelia scene kitchen -o kitchen --detail 1.94",
+          "Write the kitchen, finely tessellated"}}}},
+      {"convert",
+       {"Writes any readable scene as Mitsuba XML with PLY meshes and image files beside it.",
+        {{"FOLDER/scene.xml", "The scene"}},
+        {{"lobelia convert scene.glb -o scene", "Convert glTF to Mitsuba XML"}}}},
+      {"bench",
+       {"Runs a study and prints its tables as Markdown, as they stand in docs/performance.md.",
+        {},
+        {{"lobelia bench rates --json rates.json", "Measure rays per second"}}}},
+      {"completion",
+       {"Prints a script that completes commands, options and values in a shell. Installation puts "
+        "the scripts where the shells look for them.",
+        {},
+        {{"source <(lobelia completion bash)", "Use it in the running bash"},
+         {"lobelia completion zsh > ~/.zfunc/_lobelia",
+          "For zsh, in a folder of its fpath (before compinit)"},
+         {"lobelia completion fish > ~/.config/fish/completions/lobelia.fish", "For fish"}}}},
+  };
+  return table;
+}
+
+std::string code(ExitCode value) { return std::to_string(static_cast<int>(value)); }
+
+}  // namespace
+
+const CommandTexts& commandTexts(const std::string& command) { return texts().at(command); }
+
+const std::vector<NamedText>& exitCodeTexts() {
+  static const std::vector<NamedText> table{
+      {code(ExitCode::done), "Done"},
+      {code(ExitCode::failed), "Failed while running (disk full, out of memory)"},
+      {code(ExitCode::usage), "Wrong usage"},
+      {code(ExitCode::input),
+       "Unreadable or invalid input; the message names file, line, what is wrong, what would be "
+       "right"},
+      {code(ExitCode::interrupted), "Stopped by SIGINT, after writing what there is"},
+      {code(ExitCode::terminated), "Stopped by SIGTERM, after writing what there is"},
+  };
+  return table;
+}
+
+std::string exampleFooter(const std::string& command) {
+  std::string out;
+  for (const NamedText& example : commandTexts(command).examples)
+    out += fmt::format("{}  {}\n      {}\n", out.empty() ? "Examples:\n" : "", example.name,
+                       example.text);
+  return out;
+}
+
+}  // namespace lobelia::app

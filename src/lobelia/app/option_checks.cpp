@@ -1,0 +1,48 @@
+#include "lobelia/app/option_checks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+namespace lobelia::app {
+
+CLI::Validator finiteNumber(double least, double most, bool leastIncluded) {
+  const std::string range =
+      std::isinf(least) && std::isinf(most)
+          ? std::string("a finite number")
+          : fmt::format("a finite number {} {}{}", leastIncluded ? "from" : "above", least,
+                        std::isinf(most) ? "" : fmt::format(" to {}", most));
+  const auto check = [=](const std::string& text) {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) &&
+                      value <= most && (leastIncluded ? value >= least : value > least);
+    return good ? std::string() : fmt::format("'{}' is not {}", text, range);
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator seedNumber() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        uint64_t value = 0;
+        const char* end = text.data() + text.size();
+        const auto [next, error] = std::from_chars(text.data(), end, value);
+        return error == std::errc() && next == end
+                   ? std::string()
+                   : fmt::format("'{}' is not an integer from 0 to 2^64-1", text);
+      },
+      "");
+}
+
+CLI::Validator integerRange(int64_t least, int64_t most) {
+  return CLI::Range(least, most).description("");
+}
+
+CLI::Validator offered(const std::vector<std::string>& values) {
+  return CLI::Validator([](const std::string&) { return std::string(); },
+                        fmt::format("{{{}}}", fmt::join(values, ",")));
+}
+
+}  // namespace lobelia::app
