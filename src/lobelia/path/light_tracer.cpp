@@ -9,6 +9,7 @@
 // that the result does not depend on the number of threads.
 #include <cmath>
 
+#include "lobelia/base/checkpoints.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/path/path_walk.h"
 
@@ -69,7 +70,18 @@ class ParticlePasses {
     filterNorm_ = 1 / static_cast<float>(2 * sum * static_cast<double>(radius_) / kSteps);
   }
 
-  void run() {
+  // Goes on from a checkpoint of this stage; the film then holds the emission that is seen.
+  bool resume() {
+    Checkpoints* const saved = settings_.checkpoints;
+    if (!saved || !saved->load(kStage, state())) return false;
+    saved->restoreCounts();
+    return true;
+  }
+
+  // False when stopped before all particles were traced. Saved are complete films only: those that
+  // hold all emission that is seen.
+  bool run(bool filmComplete) {
+    Checkpoints* const checkpoints = filmComplete ? settings_.checkpoints : nullptr;
     const size_t total = static_cast<size_t>(std::max(settings_.spp, 0)) * film_.pixelCount();
     while (particles_ < total && !stopped()) {
       const size_t first = particles_;
@@ -89,7 +101,10 @@ class ParticlePasses {
       }
       particles_ += count;
       context_.progress("light", static_cast<double>(particles_) / static_cast<double>(total));
+      if (checkpoints && checkpoints->due()) save(*checkpoints);
     }
+    if (checkpoints) save(*checkpoints);
+    return filmComplete && particles_ >= total;
   }
 
   void write() const {
@@ -106,6 +121,20 @@ class ParticlePasses {
   }
 
  private:
+  void save(Checkpoints& checkpoints) {
+    checkpoints.markCounts();
+    checkpoints.save(kStage, state());
+  }
+  StateFields state() {
+    StateFields fields;
+    for (auto& [name, layer] : film_.layers) fields.add("layer/" + name, layer.values);
+    fields.add("direct", direct_);
+    fields.add("indirect", indirect_);
+    fields.add("square", square_);
+    fields.addValue("particles", particles_);
+    return fields;
+  }
+
   bool stopped() const {
     const double seconds = static_cast<double>(nanosecondsNow() - start_) * 1e-9;
     return context_.cancelled() || (settings_.timeLimit > 0 && seconds > settings_.timeLimit);
@@ -223,6 +252,7 @@ class ParticlePasses {
     }
   }
 
+  static constexpr const char* kStage = "light";
   const Tracer& tracer_;
   const EmitterSampler& emitters_;
   const PathSettings& settings_;
@@ -235,21 +265,24 @@ class ParticlePasses {
   std::vector<uint8_t> wanted_;
   std::vector<double> direct_, indirect_, square_;
   float filterNorm_ = 1;
-  size_t particles_ = 0;
+  uint64_t particles_ = 0;
   const int64_t start_;
 };
 
 }  // namespace
 
-void renderLight(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+bool renderLight(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                  const PathSettings& settings, Film& film, Context& context) {
   PathSettings emission = settings;
   emission.maxDepth = std::min(settings.maxDepth < 0 ? 1 : settings.maxDepth, 1);
-  renderPath(tracer, emitters, camera, emission, film, context);
-  const StageTimer timer(context, "light");
   ParticlePasses passes(tracer, emitters, camera, settings, film, context);
-  passes.run();
+  const bool seen =
+      passes.resume() || renderPath(tracer, emitters, camera, emission, film, context);
+  markPixels(film, settings.pixels);
+  const StageTimer timer(context, "light");
+  const bool complete = passes.run(seen);
   passes.write();
+  return complete;
 }
 
 }  // namespace lobelia

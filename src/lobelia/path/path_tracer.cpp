@@ -1,11 +1,12 @@
 // The picture by path tracing: samples are added in passes over the image, tile by tile in
 // parallel, so that a time limit or a cancellation leaves an unbiased mean of what each pixel has.
 // A pixel belongs to one tile and its samples are added in order: the result does not depend on the
-// number of threads.
+// number of threads. Between tiles the sums can be saved, and another run goes on from them.
 #include "lobelia/path/path_tracer.h"
 
 #include <atomic>
 
+#include "lobelia/base/checkpoints.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/path/path_walk.h"
 
@@ -39,47 +40,31 @@ class PathPasses {
         settings_(settings),
         film_(film),
         context_(context),
+        checkpoints_(settings.checkpoints),
         sums_(film.pixelCount()),
         start_(nanosecondsNow()) {
     if (film.layers.contains("albedo") || film.layers.contains("normal") ||
         film.layers.contains("depth")) {
       guides_.resize(film.pixelCount());
     }
-    const uint32_t width = static_cast<uint32_t>(film.width);
-    const uint32_t height = static_cast<uint32_t>(film.height);
-    if (!settings.pixels.pixels.empty()) {
-      constexpr size_t kGroup = 64;
-      const auto& pixels = settings.pixels.pixels;
-      for (size_t i = 0; i < pixels.size(); i += kGroup) {
-        tiles_.emplace_back(
-            pixels.begin() + static_cast<ptrdiff_t>(i),
-            pixels.begin() + static_cast<ptrdiff_t>(std::min(i + kGroup, pixels.size())));
-      }
-      return;
-    }
-    for (uint32_t ty = 0; ty < height; ty += kTile) {
-      for (uint32_t tx = 0; tx < width; tx += kTile) {
-        auto& tile = tiles_.emplace_back();
-        for (uint32_t y = ty; y < std::min(ty + kTile, height); ++y) {
-          for (uint32_t x = tx; x < std::min(tx + kTile, width); ++x) tile.push_back(y * width + x);
-        }
-      }
-    }
+    makeTiles();
+    tileSamples_.assign(tiles_.size(), 0);
   }
 
-  void run() {
+  // False when stopped before all samples were added.
+  bool run() {
+    if (checkpoints_ && checkpoints_->load(kStage, state())) checkpoints_->restoreCounts();
     // The first passes are short: a limited render should have every pixel soon.
     for (int first = 0, size = 1; first < settings_.spp && !stopped(first > 0); first += size) {
       if (first > 0) size = std::min(3 * first, kSamplesPerPass);
       const int last = std::min(first + size, settings_.spp);
-      std::atomic<size_t> done{0};
-      parallelFor(tiles_.size(), 1, [&](size_t t) {
-        if (stopped(first > 0)) return;
-        addSamples(tiles_[t], first, last);
-        const double part = static_cast<double>(++done) / static_cast<double>(tiles_.size());
-        report((first + part * (last - first)) / settings_.spp);
-      });
+      while (!complete(last) && !stopped(first > 0)) {
+        addPass(first, last);
+        if (due()) save();
+      }
     }
+    save();
+    return complete(settings_.spp);
   }
 
   void write() {
@@ -99,10 +84,66 @@ class PathPasses {
   }
 
  private:
+  void makeTiles() {
+    const uint32_t width = static_cast<uint32_t>(film_.width);
+    const uint32_t height = static_cast<uint32_t>(film_.height);
+    const std::vector<uint32_t>& chosen = settings_.pixels.pixels;
+    if (!chosen.empty()) {
+      constexpr size_t kGroup = 64;
+      for (size_t i = 0; i < chosen.size(); i += kGroup) {
+        tiles_.emplace_back(
+            chosen.begin() + static_cast<ptrdiff_t>(i),
+            chosen.begin() + static_cast<ptrdiff_t>(std::min(i + kGroup, chosen.size())));
+      }
+      return;
+    }
+    for (uint32_t ty = 0; ty < height; ty += kTile) {
+      for (uint32_t tx = 0; tx < width; tx += kTile) {
+        auto& tile = tiles_.emplace_back();
+        for (uint32_t y = ty; y < std::min(ty + kTile, height); ++y) {
+          for (uint32_t x = tx; x < std::min(tx + kTile, width); ++x) tile.push_back(y * width + x);
+        }
+      }
+    }
+  }
+
   double seconds() const { return static_cast<double>(nanosecondsNow() - start_) * 1e-9; }
   bool stopped(bool timed) const {
     return context_.cancelled() ||
            (timed && settings_.timeLimit > 0 && seconds() > settings_.timeLimit);
+  }
+
+  bool complete(int samples) const {
+    return std::all_of(tileSamples_.begin(), tileSamples_.end(),
+                       [&](int has) { return has >= samples; });
+  }
+
+  // Adds samples to the tiles that lack them, until a checkpoint is due: that changes when a tile
+  // gets its samples, not what they are.
+  void addPass(int first, int last) {
+    std::atomic<size_t> done{0}, added{0};
+    parallelFor(tiles_.size(), 1, [&](size_t t) {
+      const double part = static_cast<double>(++done) / static_cast<double>(tiles_.size());
+      if (tileSamples_[t] >= last || stopped(first > 0) || (added > 0 && due())) return;
+      addSamples(tiles_[t], first, last);
+      tileSamples_[t] = last;
+      ++added;
+      report((first + part * (last - first)) / settings_.spp);
+    });
+  }
+
+  bool due() const { return checkpoints_ && checkpoints_->due(); }
+  void save() {
+    if (!checkpoints_) return;
+    checkpoints_->markCounts();
+    checkpoints_->save(kStage, state());
+  }
+  StateFields state() {
+    StateFields fields;
+    fields.add("tile-samples", tileSamples_);
+    fields.add("sums", sums_);
+    fields.add("guides", guides_);
+    return fields;
   }
 
   void report(double fraction) {
@@ -198,12 +239,15 @@ class PathPasses {
     writeLayer(name, [&](size_t i, size_t c) { return value(guides_[i], c); });
   }
 
+  static constexpr const char* kStage = "path";
   const PathWalk<Tracer> walk_;
   const Camera& camera_;
   const PathSettings& settings_;
   Film& film_;
   Context& context_;
+  Checkpoints* const checkpoints_;
   std::vector<std::vector<uint32_t>> tiles_;  // pixels
+  std::vector<int32_t> tileSamples_;          // that a tile's pixels have
   std::vector<PixelSum> sums_;
   std::vector<GuideSum> guides_;
   const int64_t start_;
@@ -212,16 +256,14 @@ class PathPasses {
 
 }  // namespace
 
-void renderPath(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+bool renderPath(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                 const PathSettings& settings, Film& film, Context& context) {
   const StageTimer timer(context, "path");
-  if (!settings.pixels.pixels.empty()) {
-    film.alpha.assign(film.pixelCount(), 0.f);
-    for (const uint32_t pixel : settings.pixels.pixels) film.alpha[pixel] = 1;
-  }
+  markPixels(film, settings.pixels);
   PathPasses passes(tracer, emitters, camera, settings, film, context);
-  passes.run();
+  const bool complete = passes.run();
   passes.write();
+  return complete;
 }
 
 }  // namespace lobelia

@@ -6,6 +6,8 @@
 
 namespace lobelia {
 
+class Checkpoints;
+
 enum class Component : uint8_t { all, direct, indirect };
 
 struct PixelSet {                // which pixels of the data window are computed; empty: all
@@ -13,28 +15,32 @@ struct PixelSet {                // which pixels of the data window are computed
 };
 // N pixels spread over the data window by the seed (blue-noise-like: one per stratum).
 PixelSet spreadPixels(int width, int height, size_t count, uint64_t seed);
+// The film's alpha: 1 at the pixels of a set, 0 elsewhere; opaque when all are computed.
+void markPixels(Film& film, const PixelSet& pixels);
 
 struct PathSettings {
   int spp = 64;
   int maxDepth = -1;  // Mitsuba's count; -1 unlimited
   int rouletteDepth = 5;
-  int directSamples = 4;          // emitter samples at vertices seen directly or by sharp lobes
+  int directSamples = 4;  // emitter samples at vertices seen directly or by sharp lobes
   float specularLimit = 0.08f;
   Component component = Component::all;
   double timeLimit = 0;  // seconds; 0: none. Samples are added in passes over the image.
   bool hideEmitters = false;
   PixelSet pixels;
+  Checkpoints* checkpoints = nullptr;  // where to save the state and to go on from; null: nowhere
 };
 
 // Adds the picture and the layers "direct", "indirect", "albedo", "normal", "depth", "variance"
 // (variance of the mean) that film already has to film. Counts "path_rays", "shadow_rays",
-// "nonfinite" in the context's statistics. Same seed, same pixels for any number of threads.
-void renderPath(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+// "nonfinite" in the context's statistics. Same seed, same pixels for any number of threads. False
+// when stopped before all samples were added.
+bool renderPath(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                 const PathSettings& settings, Film& film, Context& context);
 
 // Light tracing: particles connected to the camera. Finds caustics that a path tracer cannot, but
 // nothing seen through specular surfaces. spp: particles per pixel.
-void renderLight(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+bool renderLight(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                  const PathSettings& settings, Film& film, Context& context);
 
 }  // namespace lobelia

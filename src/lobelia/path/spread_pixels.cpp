@@ -36,4 +36,10 @@ PixelSet spreadPixels(int width, int height, size_t count, uint64_t seed) {
   return set;
 }
 
+void markPixels(Film& film, const PixelSet& pixels) {
+  if (pixels.pixels.empty()) return;
+  film.alpha.assign(film.pixelCount(), 0.f);
+  for (const uint32_t pixel : pixels.pixels) film.alpha[pixel] = 1;
+}
+
 }  // namespace lobelia
