@@ -40,8 +40,15 @@ struct RenderOptions {
   std::string component = "all";
   uint64_t seed = 0;
   double timeLimit = 0;
+  std::string checkpoint, resume;  // files; at most one of them is named
+  double checkpointInterval = 20;  // seconds
+  std::string replay;              // X,Y
   std::string saveLights, loadLights, stats, aovs;
   float exposure = 0;
+  int frames = 0;     // of a camera path or turntable; 0: one picture
+  std::string frame;  // K or A-B: only these of them
+  bool turntable = false;
+  std::string display;  // HOST:PORT of a viewer
 };
 
 struct GlobalOptions {
