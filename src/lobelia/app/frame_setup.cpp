@@ -177,6 +177,9 @@ void requireWritable(const std::string& file) {
 }
 
 void requireOutputs(const RenderOptions& options) {
+  if (options.outputs.empty() && options.replay.empty()) {
+    throw UsageError("--output is required: the picture to write, as in -o picture.exr");
+  }
   for (const std::string& file : options.outputs) {
     const std::string extension = std::filesystem::path(file).extension().string();
     if (extension != ".exr" && extension != ".png") {
@@ -185,7 +188,8 @@ void requireOutputs(const RenderOptions& options) {
     requireWritable(file);
   }
   std::vector<std::string> files = options.outputs;
-  for (const std::string& file : {options.stats, options.saveLights}) {
+  for (const std::string& file :
+       {options.stats, options.saveLights, options.checkpoint, options.resume}) {
     if (file.empty()) continue;
     requireWritable(file);
     files.push_back(file);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "lobelia/app/checkpoint_file.h"
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/methods.h"
@@ -70,10 +71,13 @@ ExitCode renderUntilCancelled(const RenderOptions& options, const std::string& c
   const EmitterSampler emitters(scene, tracer.bounds());
   if (emitters.empty()) context.warning("the scene has no light; the picture will be black");
 
+  const std::unique_ptr<Checkpoints> checkpoints =
+      openCheckpoint(scene, camera, maxDepth, options, context);
   VirtualLightReport report;
   const int64_t renderStart = nanosecondsNow();
   if (!usesVirtualLights(options)) {
-    const PathSettings settings = pathSettings(scene, camera, pixels, maxDepth, options);
+    PathSettings settings = pathSettings(scene, camera, pixels, maxDepth, options);
+    settings.checkpoints = checkpoints.get();
     const auto method = options.lights == "path" ? renderPath : renderLight;
     {
       const StageTimer timer(context, "trace");
@@ -81,12 +85,9 @@ ExitCode renderUntilCancelled(const RenderOptions& options, const std::string& c
     }
     composePicture(film, options);
   } else {
-    if (!pixels.pixels.empty()) {
-      film.alpha.assign(film.pixelCount(), 0.f);
-      for (uint32_t pixel : pixels.pixels) film.alpha[pixel] = 1;
-    }
-    report =
-        renderVirtualLights(tracer, emitters, camera, pixels, maxDepth, options, film, context);
+    markPixels(film, pixels);
+    report = renderVirtualLights(tracer, emitters, camera, pixels, maxDepth, options, film, context,
+                                 checkpoints.get());
     composePicture(film, options);
   }
   context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);

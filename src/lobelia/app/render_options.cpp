@@ -63,7 +63,6 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
   addSceneOptions(c, o.scene);
   c.add_option("-o,--output", o.outputs, "Picture to write: .exr (linear), .png (tone-mapped)")
       ->type_name("FILE")
-      ->required()
       ->allow_extra_args(false);
   c.add_option("--lights", o.lights, "Light model; `lobelia methods` explains")
       ->type_name("MODEL")
@@ -127,6 +126,21 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
   c.add_option("--time-limit", o.timeLimit, "Seconds after which to write what there is")
       ->type_name("SECONDS")
       ->check(finiteNumber(0, HUGE_VAL, false));
+  auto* checkpoint =
+      c.add_option("--checkpoint", o.checkpoint,
+                   "Start afresh and keep the state of the render in a file, for --resume")
+          ->type_name("FILE");
+  c.add_option("--resume", o.resume,
+               "Go on from the checkpoint when the file is there; keep the state in it")
+      ->type_name("FILE")
+      ->excludes(checkpoint);
+  c.add_option("--checkpoint-interval", o.checkpointInterval, "Seconds between checkpoints")
+      ->type_name("SECONDS")
+      ->check(finiteNumber(0, HUGE_VAL, false))
+      ->capture_default_str();
+  c.add_option("--replay", o.replay,
+               "X,Y: render only this pixel and print what its samples did; writes no picture")
+      ->type_name("X,Y");
   c.add_option("--save-lights", o.saveLights, "Write the virtual lights to a file")
       ->type_name("FILE");
   c.add_option("--load-lights", o.loadLights, "Use the virtual lights of a file")
