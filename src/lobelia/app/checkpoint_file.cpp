@@ -1,0 +1,208 @@
+#include "lobelia/app/checkpoint_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+
+#include "lobelia/base/file.h"
+#include "lobelia/version.h"
+
+namespace lobelia::app {
+namespace {
+
+constexpr const char* kKind = "checkpoint";
+constexpr uint32_t kFileVersion = 1;
+constexpr const char* kCounters[] = {
+    "path_rays", "shadow_rays",        "nonfinite",         "light_particles",     "lights_dropped",
+    "paths_cut", "node_pairs_visited", "node_pairs_shaded", "specular_connections"};
+
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+void addText(store::Writer& writer, std::string_view chunk, std::string_view text) {
+  writer.add(chunk, std::span<const char>(text.data(), text.size()));
+}
+
+std::string text(const store::Reader& reader, std::string_view chunk) {
+  const std::vector<char> chars = reader.get<char>(chunk);
+  return {chars.begin(), chars.end()};
+}
+
+// Values hold no line breaks: file names are hashed.
+std::string join(const Lines& lines) {
+  std::string out;
+  for (const auto& [name, value] : lines) out += fmt::format("{}={}\n", name, value);
+  return out;
+}
+
+Lines parse(const std::string& text) {
+  Lines lines;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    const size_t equals = std::min(line.find('='), line.size());
+    lines.emplace_back(line.substr(0, equals),
+                       equals < line.size() ? line.substr(equals + 1) : std::string());
+    begin = end + 1;
+  }
+  return lines;
+}
+
+std::string hashOf(const std::string& file) {
+  return file.empty() ? "none" : fmt::format("{:016x}", store::hashBytes(readFile(file)));
+}
+
+// Both ways, so that a setting that only one side has shows too.
+std::vector<std::string> differences(const Lines& saved, const Lines& wanted) {
+  std::vector<std::string> out;
+  const auto valueIn = [](const Lines& lines, const std::string& name) {
+    const auto it = std::find_if(lines.begin(), lines.end(),
+                                 [&](const auto& line) { return line.first == name; });
+    return it != lines.end() ? it->second : std::string("not known");
+  };
+  for (const auto& [name, value] : wanted) {
+    const std::string other = valueIn(saved, name);
+    if (other != value) out.push_back(fmt::format("{} {} (now {})", name, other, value));
+  }
+  for (const auto& [name, value] : saved) {
+    if (valueIn(wanted, name) == "not known") {
+      out.push_back(fmt::format("{} {} (now not known)", name, value));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
+                        const RenderOptions& o) {
+  RenderIdentity identity;
+  identity.sceneHash = hash(scene);
+  Lines& s = identity.settings;
+  const bool virtualLights = o.lights != "path" && o.lights != "light";
+  s.emplace_back("version", kVersion);
+  s.emplace_back("--lights", o.lights);
+  s.emplace_back("--size", fmt::format("{}x{}", camera.width, camera.height));
+  s.emplace_back("--crop", fmt::format("{},{},{},{}", camera.cropX0, camera.cropY0, camera.cropX1,
+                                       camera.cropY1));
+  Scene seen;
+  seen.cameras = {camera};
+  s.emplace_back("--camera", fmt::format("{:016x}", hash(seen)));
+  const int spp = o.spp > 0 || virtualLights ? o.spp : camera.spp;
+  s.emplace_back("--spp", spp > 0 ? std::to_string(spp) : "default");
+  s.emplace_back("--pixels", std::to_string(o.pixels));
+  s.emplace_back("--seed", std::to_string(o.seed));
+  s.emplace_back("--max-depth", std::to_string(maxDepth));
+  s.emplace_back("--component", o.component);
+  s.emplace_back("--specular-limit", fmt::format("{}", o.specularLimit));
+  s.emplace_back("--aov", o.aovs);
+  if (!virtualLights) return identity;
+  s.emplace_back("--gather", o.gather);
+  s.emplace_back("--num-lights", std::to_string(o.lightCount));
+  s.emplace_back("--env-lights", std::to_string(o.environmentLights));
+  s.emplace_back("--passes", std::to_string(o.passes));
+  s.emplace_back("--direct", o.direct);
+  s.emplace_back("--clamp", o.clamp);
+  s.emplace_back("--save-lights", o.saveLights.empty() ? "no" : "yes");  // one set of lights
+  s.emplace_back("--load-lights", hashOf(o.loadLights));
+  return identity;
+}
+
+CheckpointFile::CheckpointFile(std::string file, RenderIdentity identity, double interval,
+                               bool resume, Context& context)
+    : file_(std::move(file)),
+      identity_(std::move(identity)),
+      interval_(static_cast<int64_t>(std::min(interval, 1e9) * 1e9)),
+      context_(context),
+      last_(nanosecondsNow()) {
+  if (!resume) return;
+  if (std::filesystem::exists(file_)) {
+    open();
+  } else {
+    context.info(fmt::format("no checkpoint {} yet: starting afresh", file_));
+  }
+}
+
+void CheckpointFile::open() {
+  saved_.emplace(file_, kKind, kFileVersion);
+  const auto refuse = [&](const std::string& what) {
+    throw InputError({file_}, fmt::format("{}; use --checkpoint to start afresh", what));
+  };
+  const std::vector<std::string> different =
+      differences(parse(text(*saved_, "settings")), identity_.settings);
+  if (!different.empty()) {
+    refuse(fmt::format("the checkpoint was made with {}", fmt::join(different, ", ")));
+  }
+  if (saved_->sceneHash() != identity_.sceneHash) {
+    refuse("the checkpoint belongs to another scene, or the scene was changed since");
+  }
+}
+
+bool CheckpointFile::due() const { return nanosecondsNow() - last_ > interval_; }
+
+void CheckpointFile::markCounts() {
+  for (const char* name : kCounters) marked_[name] = context_.statistics.count(name);
+}
+
+// A disk that is full now must not cost the picture.
+void CheckpointFile::save(std::string_view stage, const StateFields& state) {
+  try {
+    store::Writer writer(kKind, kFileVersion, identity_.sceneHash);
+    addText(writer, "settings", join(identity_.settings));
+    addText(writer, "stage", stage);
+    Lines counts;
+    for (const auto& [name, count] : marked_) counts.emplace_back(name, std::to_string(count));
+    addText(writer, "counts", join(counts));
+    for (const StateFields::Field& field : state.fields) {
+      writer.add(field.name, std::span<const std::byte>(field.bytes));
+    }
+    writer.save(file_);
+    failed_ = false;
+  } catch (const RuntimeError& e) {
+    if (!failed_) context_.warning(fmt::format("no checkpoint: {}; the render goes on", e.what()));
+    failed_ = true;
+  }
+  last_ = nanosecondsNow();
+}
+
+bool CheckpointFile::load(std::string_view stage, const StateFields& state) {
+  if (!saved_ || text(*saved_, "stage") != stage) return false;
+  for (const StateFields::Field& field : state.fields) {
+    const std::vector<std::byte> bytes = saved_->get<std::byte>(field.name);
+    if (bytes.size() != field.bytes.size()) {
+      throw InputError({file_},
+                       fmt::format("'{}' has {} bytes; {} are expected; use --checkpoint to "
+                                   "start afresh",
+                                   field.name, bytes.size(), field.bytes.size()));
+    }
+    std::copy(bytes.begin(), bytes.end(), field.bytes.begin());
+  }
+  for (const auto& [name, value] : parse(text(*saved_, "counts"))) {
+    uint64_t& count = loaded_[name];
+    std::from_chars(value.data(), value.data() + value.size(), count);
+  }
+  saved_.reset();
+  context_.info(fmt::format("going on from {}", file_));
+  return true;
+}
+
+void CheckpointFile::restoreCounts() {
+  // Counters only grow; modulo 2^64 that is no limit.
+  for (const auto& [name, count] : loaded_) {
+    context_.statistics.addCount(name, count - context_.statistics.count(name));
+  }
+}
+
+std::unique_ptr<Checkpoints> openCheckpoint(const Scene& scene, const Camera& camera, int maxDepth,
+                                            const RenderOptions& options, Context& context) {
+  const bool resume = !options.resume.empty();
+  const std::string& file = resume ? options.resume : options.checkpoint;
+  if (file.empty()) return nullptr;
+  return std::make_unique<CheckpointFile>(file, identify(scene, camera, maxDepth, options),
+                                          options.checkpointInterval, resume, context);
+}
+
+}  // namespace lobelia::app
