@@ -96,17 +96,16 @@ TEST(Docs, EveryOptionIsDescribed) {
 TEST(Docs, ManPagesFormatWithoutWarnings) {
   if (!present("groff")) GTEST_SKIP() << "no groff";
   const TemporaryFolder folder;
-  std::vector<std::string> pages = commands();
-  ASSERT_GT(pages.size(), 7u);
-  pages.emplace_back();  // the program's own
-  for (const std::string& command : pages) {
-    const std::string text = printed("docs man " + command);
-    writeText(folder / "page.1", text);
+  EXPECT_EQ(runProgram("docs files " + folder.path()).exitCode, 0);
+  std::vector<std::string> pages = {"lobelia"};
+  for (const std::string& command : commands()) pages.push_back("lobelia-" + command);
+  ASSERT_GT(pages.size(), 8u);
+  for (const std::string& page : pages) {
+    const std::string file = folder / "man/man1/" + page + ".1", text = readText(file);
     for (const char* section : {"NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "EXIT STATUS"})
       EXPECT_NE(text.find(std::string("\n.SH ") + section + "\n"), std::string::npos)
-          << command << " lacks " << section;
-    const std::string warnings = said("groff -man -Tutf8 -ww -z " + (folder / "page.1"));
-    EXPECT_EQ(warnings, "") << command;
+          << page << " lacks " << section;
+    EXPECT_EQ(said("groff -man -Tutf8 -ww -z " + file), "") << page;
   }
   EXPECT_EQ(runProgram("docs man rendr").exitCode, 2);
 }
@@ -122,8 +121,9 @@ TEST(Docs, FilesForInstallation) {
 
 // What bash offers for a line that ends where the cursor is. The words as bash splits them.
 std::vector<std::string> offeredByBash(const std::string& words) {
+  static const std::string script = printed("completion bash");
   const TemporaryFolder folder;
-  writeText(folder / "completion", printed("completion bash"));
+  writeText(folder / "completion", script);
   writeText(folder / "try", "source " + (folder / "completion") + "\nCOMP_WORDS=(" + words +
                                 ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_lobelia\n"
                                 "printf '%s\\n' \"${COMPREPLY[@]}\"\n");

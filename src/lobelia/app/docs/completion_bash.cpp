@@ -65,7 +65,7 @@ std::string bashCompletion(const ProgramDoc& doc) {
       "# Completion of lobelia for bash. Written by `lobelia completion bash`; do not edit.\n"
       "# shellcheck shell=bash disable=SC2034\n{}\n"
       "_lobelia() {{\n"
-      "  local cur=${{COMP_WORDS[COMP_CWORD]}} previous= command=${{COMP_WORDS[1]}}\n"
+      "  local cur=${{COMP_WORDS[COMP_CWORD]}} previous command=${{COMP_WORDS[1]}}\n"
       "  local scenes='{}'\n"
       "  COMPREPLY=()\n"
       "  if ((COMP_CWORD == 1)); then\n"
