@@ -37,6 +37,11 @@ SignalGuard::~SignalGuard() {
   activeContext = nullptr;
 }
 
+void SignalGuard::watch(Context& context) {
+  activeContext = &context;
+  if (receivedSignal.load() != 0) context.cancel();
+}
+
 ExitCode signalExitCode() {
   switch (receivedSignal.load()) {
     case SIGINT:

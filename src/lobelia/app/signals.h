@@ -11,6 +11,8 @@ class SignalGuard {
  public:
   explicit SignalGuard(Context& context);
   ~SignalGuard();
+  // Signals cancel this context from now on: at once when one came already.
+  void watch(Context& context);
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;
 };

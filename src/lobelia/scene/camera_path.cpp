@@ -3,10 +3,10 @@
 // A place is split into translation, rotation and the rest (scale, shear, mirror): the matrix' axes
 // are made orthonormal by Gram and Schmidt, the direction of view first, then up; a mirrored frame
 // has its first axis reversed, so that the rotation is one. Translations and the rest are blended
-// linearly, rotations by slerp (Shoemake 1985).
+// linearly, rotations by slerp [Shoemake85].
 //
-// Through several views goes a Catmull-Rom curve in Barry and Goldman's 1988 pyramid, in which the
-// linear blends of rotations are slerps (Schlag 1991). Knots are centripetal (Yuksel et al. 2011):
+// Through several views goes a Catmull-Rom curve in the pyramid of [BarryGoldman88], in which the
+// linear blends of rotations are slerps [Schlag91]. Knots are centripetal [Yuksel11]:
 // an interval is the square root of the distance, so that the curve has no cusp or loop between
 // views. Deviation: as a distance counts the turn too (half a turn as much as the mean distance of
 // neighbours), or a view that only turns would pass in no time; equal neighbours are a rest of mean
@@ -98,7 +98,7 @@ Pose limited(Pose pose, const Pose& a, const Pose& b) {
   return pose;
 }
 
-// Barry and Goldman 1988: points p[0..3] at times t[0..3], for a time between t[1] and t[2].
+// [BarryGoldman88]: points p[0..3] at times t[0..3], for a time between t[1] and t[2].
 Pose pyramid(const Pose (&p)[4], const double (&t)[4], double time) {
   const auto blend = [time](const Pose& a, const Pose& b, double ta, double tb) {
     return mix(a, b, (time - ta) / (tb - ta));

@@ -125,6 +125,13 @@ void checkCameras(const Scene& scene, Findings& findings) {
     const Camera& c = scene.cameras[i];
     const std::string who = label("camera", c.name, i);
     checkTransform(c.toWorld, who, findings);
+    for (size_t k = 0; k < c.path.size(); ++k) {
+      checkTransform(c.path[k].toWorld, who + ", key " + std::to_string(k), findings);
+      if (!std::isfinite(c.path[k].time) || (k > 0 && !(c.path[k].time > c.path[k - 1].time))) {
+        findings.error(fmt::format("{}: the times of its path must rise; key {} does not", who, k));
+        break;
+      }
+    }
     if (c.width < 1 || c.height < 1) {
       findings.error(fmt::format("{}: a film of {}x{} pixels; both must be 1 or more", who, c.width,
                                  c.height));
