@@ -1,5 +1,6 @@
-// Saved virtual lights; the container's checksum is not asked for here (store/container.cpp).
+// Saved virtual lights.
 #include "fuzz/fuzz_file.h"
+#include "fuzz/sealed_input.h"
 #include "lobelia/lights/light_pass.h"
 
 using namespace lobelia;

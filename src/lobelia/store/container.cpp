@@ -223,12 +223,7 @@ Reader::Reader(const std::string& file, std::string_view kind, uint32_t version)
   }
   const size_t end = data_.size() - kChecksumSize;
   const std::span<const std::byte> checked(data_.data(), end);
-#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-  constexpr bool verify = false;  // fuzzing is to reach what lies behind the checksum
-#else
-  constexpr bool verify = true;
-#endif
-  if (verify && Cursor(data_, end).get<uint64_t>() != hashBytes(checked)) {
+  if (Cursor(data_, end).get<uint64_t>() != hashBytes(checked)) {
     throw InputError({file}, "is corrupt: its checksum differs; write it again");
   }
 
