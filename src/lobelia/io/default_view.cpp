@@ -16,8 +16,17 @@ constexpr double kElevation = 20 * kDegree;  // of the camera
 constexpr double kAzimuths[] = {30 * kDegree, -30 * kDegree, 150 * kDegree, -150 * kDegree};
 constexpr double kClearlyMore = 1.1;
 constexpr double kFov = 35 * kDegree;
-constexpr double kMargin = 1.06;  // of the film around what is framed
+constexpr float kSmallest = 1e-30f, kLargest = 1e30f;  // radii that a camera can frame
+constexpr double kMargin = 1.06;                       // of the film around what is framed
 constexpr int kWidth = 1024, kHeight = 768;
+
+// From where it is to look towards the centre. Made of a direction and a place: the two places are
+// one point when the scene is far from the origin for its size.
+Mat4 viewFrom(Vec3d place, Vec3d towards) {
+  Mat4 toWorld = *lookAt({}, towards * -1.0, {0, 1, 0});
+  toWorld.m[0][3] = place.x, toWorld.m[1][3] = place.y, toWorld.m[2][3] = place.z;
+  return toWorld;
+}
 
 // The nearest distance along the view direction from which all corners of the box are in the film.
 double framingDistance(const Bounds3f& box, const Mat4& camera) {
@@ -75,20 +84,30 @@ Vec3d viewDirection(const Scene& scene) {
   return best;
 }
 
+// What is to be seen; a box of two units where the scene has no size, or one beyond all use.
+Bounds3f framedBox(const Scene& scene) {
+  const Bounds3f box = bounds(scene);
+  const float radius = box.radius();
+  if (!box.empty() && radius > kSmallest && radius < kLargest &&
+      maxComponent(max(box.hi, -box.lo)) < kLargest)
+    return box;
+  const Vec3f centre = box.centre();
+  const bool isPoint =
+      !box.empty() && !(radius > kSmallest) && maxComponent(max(centre, -centre)) < kLargest;
+  Bounds3f other;
+  for (const float side : {-1.f, 1.f}) other.add((isPoint ? centre : Vec3f()) + Vec3f(side));
+  return other;
+}
+
 Camera framingCamera(const Scene& scene) {
-  Bounds3f box = bounds(scene);
-  if (box.empty() || !isFinite(box.extent()) || !(box.radius() > 0)) {
-    const Vec3f centre = !box.empty() && isFinite(box.centre()) ? box.centre() : Vec3f();
-    box = Bounds3f();
-    box.add(centre - Vec3f(1.f)), box.add(centre + Vec3f(1.f));
-  }
+  const Bounds3f box = framedBox(scene);
   const Vec3f c = box.centre();
   const Vec3d centre(c.x, c.y, c.z);
   const Vec3d towards = viewDirection(scene);
-  const double distance = framingDistance(box, *lookAt(centre, centre - towards, {0, 1, 0}));
+  const double distance = framingDistance(box, viewFrom(centre, towards));
   Camera camera;
   camera.name = "default";
-  camera.toWorld = Transform(*lookAt(centre + towards * distance, centre, {0, 1, 0}));
+  camera.toWorld = Transform(viewFrom(centre + towards * distance, towards));
   camera.fovX = static_cast<float>(kFov);
   camera.width = kWidth, camera.height = kHeight;
   const auto radius = static_cast<double>(box.radius());
@@ -137,7 +156,9 @@ void addStudio(Scene& scene, const std::string& why) {
   studio.image = {static_cast<uint32_t>(scene.images.size() - 1)};
   const Vec3f forward =
       scene.cameras.empty() ? Vec3f(0, 0, -1) : scene.cameras.front().toWorld.vector({0, 0, 1});
-  const double angle = std::atan2(static_cast<double>(forward.x), static_cast<double>(forward.z));
+  const double angle = !isFinite(forward) ? 0
+                                          : std::atan2(static_cast<double>(forward.x),
+                                                       static_cast<double>(forward.z));
   studio.toWorld = Transform(rotation({0, 1, 0}, angle / kDegree));
   scene.emitters.push_back(studio);
   Finding finding{Severity::info, {scene.file, 0, 0}, why};

@@ -12,6 +12,8 @@ std::string readFileBytes(const std::string& file, const std::string& what, cons
   const auto fail = [&](const std::string& why) {
     throw InputError(from, fmt::format("cannot read {} file '{}': {}", what, file, why));
   };
+  // The system would take such a name for a shorter one.
+  if (file.find('\0') != file.npos) fail("the name has a zero byte");
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
     fail("not a regular file");

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -18,13 +19,23 @@ namespace {
 
 constexpr int kMaxSide = 1 << 16;
 constexpr uint64_t kMaxBytes = uint64_t{1} << 31;  // of decoded floats
+constexpr size_t kBandValues = size_t{1} << 22;    // floats that are read at a time
+constexpr uint64_t kMaxTileValues = 1 << 24;
 
 void checkRegularFile(const std::string& file, const Location& from) {
+  if (file.find('\0') != file.npos)
+    throw InputError(from, "cannot read an image file: its name has a zero byte");
   struct stat info {};
   const bool exists = ::stat(file.c_str(), &info) == 0;
   if (exists && S_ISREG(info.st_mode)) return;
   throw InputError(from, fmt::format("cannot read image file '{}': {}", file,
                                      exists ? "not a regular file" : std::strerror(errno)));
+}
+
+uint64_t sizeOf(const std::string& file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  return error ? 0 : size;
 }
 
 void checkExrHeader(std::span<const std::byte> start, uint64_t fileSize, const std::string& name) {
@@ -47,6 +58,18 @@ void checkSpec(const OIIO::ImageSpec& spec, const std::string& file) {
         where,
         fmt::format("an image of {} x {} pixels with {} channels takes {} MiB; at most {} are read",
                     spec.width, spec.height, spec.nchannels, bytes >> 20, kMaxBytes >> 20));
+  if (spec.tile_width > 0) {
+    const uint64_t values = static_cast<uint64_t>(spec.tile_width) *
+                            static_cast<uint64_t>(std::max(spec.tile_height, 1)) *
+                            static_cast<uint64_t>(spec.nchannels);
+    if (spec.tile_width > kMaxSide || spec.tile_height < 1 || spec.tile_height > kMaxSide ||
+        spec.tile_depth > 1 || values > kMaxTileValues)
+      throw InputError(
+          where, fmt::format("tiles of {} x {} x {} pixels with {} channels; at most {} "
+                             "values are read",
+                             spec.tile_width, spec.tile_height, spec.tile_depth, spec.nchannels,
+                             kMaxTileValues));
+  }
   for (const char* key : {"jpeg:ColorSpace", "tiff:ColorSpace"})
     if (const std::string space = spec.get_string_attribute(key);
         space == "CMYK" || space == "YCbCrK" || space == "YCCK" || space == "color separated")
@@ -59,18 +82,20 @@ void checkSpec(const OIIO::ImageSpec& spec, const std::string& file) {
 bool readPixels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, int subimage,
                 std::vector<float>& pixels) {
   const auto rowValues = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.nchannels);
-  if (spec.tile_width > 0) {
-    pixels.resize(rowValues * static_cast<size_t>(spec.height));
-    return in.read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.data());
-  }
-  constexpr int kBand = 64;
-  for (int y = 0; y < spec.height; y += kBand) {
-    const int rows = std::min(kBand, spec.height - y);
+  const bool tiled = spec.tile_width > 0;
+  const int fitting = static_cast<int>(std::max(kBandValues / rowValues, size_t{1}));
+  const int band = tiled ? spec.tile_height : std::min(64, fitting);
+  for (int y = 0; y < spec.height; y += band) {
+    const int rows = std::min(band, spec.height - y);
     const size_t begin = pixels.size();
     pixels.resize(begin + rowValues * static_cast<size_t>(rows));
-    if (!in.read_scanlines(subimage, 0, spec.y + y, spec.y + y + rows, 0, 0, spec.nchannels,
-                           OIIO::TypeFloat, pixels.data() + begin))
-      return false;
+    const int y0 = spec.y + y, y1 = y0 + rows;
+    const bool good =
+        tiled ? in.read_tiles(subimage, 0, spec.x, spec.x + spec.width, y0, y1, spec.z, spec.z + 1,
+                              0, spec.nchannels, OIIO::TypeFloat, pixels.data() + begin)
+              : in.read_scanlines(subimage, 0, y0, y1, 0, 0, spec.nchannels, OIIO::TypeFloat,
+                                  pixels.data() + begin);
+    if (!good) return false;
   }
   return true;
 }
@@ -89,14 +114,43 @@ StoredImage describe(const OIIO::ImageSpec& spec) {
   return image;
 }
 
-}  // namespace
+constexpr const char* kFormats = "EXR, HDR, PNG, JPEG, TIFF, TGA, BMP, WebP, PFM and PNM are read";
 
-namespace {
+// OpenImageIO's name of the format that the first bytes tell; "" for others. Only these: to let the
+// library try all it knows would hand damaged files to readers that nobody tests.
+std::string formatOf(std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("v/1\x01")) return "openexr";
+  if (text.starts_with("#?RADIANCE") || text.starts_with("#?RGBE")) return "hdr";
+  if (text.starts_with("\x89PNG")) return "png";
+  if (text.starts_with("\xff\xd8\xff")) return "jpeg";
+  if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP")) return "webp";
+  for (const std::string_view tiff : {std::string_view("II*\0", 4), std::string_view("MM\0*", 4),
+                                      std::string_view("II+\0", 4), std::string_view("MM\0+", 4)})
+    if (text.starts_with(tiff)) return "tiff";
+  if (text.starts_with("BM")) return "bmp";
+  if (text.size() > 2 && text[0] == 'P' && std::isspace(static_cast<unsigned char>(text[2])) &&
+      std::string_view("123456Ff").find(text[1]) != text.npos)
+    return "pnm";
+  return "";
+}
 
-// From a file, or from memory: `proxy`, with `file` ending in the format's extension. `name` is
-// what messages call it.
-std::vector<StoredImage> readOpened(const std::string& file, OIIO::Filesystem::IOProxy* proxy,
-                                    bool all, const std::string& name) {
+// TGA begins with no magic: its name tells it.
+std::string formatOf(const std::string& file, std::span<const std::byte> start) {
+  const std::string format = formatOf(start);
+  std::string extension = std::filesystem::path(file).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (format.empty() && extension == ".tga") return "targa";
+  if (format.empty())
+    throw InputError({file, 0, 0},
+                     fmt::format("cannot read the image: unknown format; {}", kFormats));
+  return format;
+}
+
+// From a file, or from memory: `proxy`. `name` is what messages call it.
+std::vector<StoredImage> readOpened(const std::string& file, const std::string& format,
+                                    OIIO::Filesystem::IOProxy* proxy, bool all,
+                                    const std::string& name) {
   const Location where{name, 0, 0};
   const auto fail = [&](std::string why) {
     while (!why.empty() && (why.back() == '\n' || why.back() == '.')) why.pop_back();
@@ -109,8 +163,10 @@ std::vector<StoredImage> readOpened(const std::string& file, OIIO::Filesystem::I
     hints.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
     // As an attribute: open()'s own argument for it is lost when there are hints too.
     if (proxy) hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(file, &hints);
+    const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::create(format);
     if (!in) fail(OIIO::geterror());
+    OIIO::ImageSpec ofFirst;
+    if (!in->open(file, ofFirst, hints)) fail(in->geterror());
     for (int i = 0; (i == 0 || all) && in->seek_subimage(i, 0); ++i) {
       const OIIO::ImageSpec spec = in->spec_dimensions(i).nchannels > 0 ? in->spec(i) : in->spec();
       checkSpec(spec, name);
@@ -129,35 +185,26 @@ std::vector<StoredImage> readOpened(const std::string& file, OIIO::Filesystem::I
   return images;
 }
 
-// Formats that may lie in memory, by their first bytes; "" for others.
-std::string formatOf(std::span<const std::byte> bytes) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (text.starts_with("\x89PNG")) return "png";
-  if (text.starts_with("\xff\xd8\xff")) return "jpg";
-  if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP")) return "webp";
-  if (text.starts_with("#?RADIANCE") || text.starts_with("#?RGBE")) return "hdr";
-  if (text.starts_with("v/1\x01")) return "exr";
-  return "";
-}
-
 }  // namespace
 
 std::vector<StoredImage> readStoredImages(const std::string& file, bool all, const Location& from) {
   checkRegularFile(file, from);
   constexpr size_t kStart = 1 << 16;  // longer than headers are
-  checkExrHeader(readFileStart(file, kStart), std::filesystem::file_size(file), file);
-  return readOpened(file, nullptr, all, file);
+  const std::vector<std::byte> start = readFileStart(file, kStart);
+  checkExrHeader(start, sizeOf(file), file);
+  return readOpened(file, formatOf(file, start), nullptr, all, file);
 }
 
 StoredImage readStoredImage(std::span<const std::byte> bytes, const std::string& name) {
   const std::string format = formatOf(bytes);
-  if (format.empty())
+  const bool inMemory = !format.empty() && format != "tiff" && format != "bmp" && format != "pnm";
+  if (!inMemory)
     throw InputError({name, 0, 0}, "unknown image format; PNG, JPEG, WebP, HDR and EXR are read");
   checkExrHeader(bytes, bytes.size(), name);
   OIIO::Filesystem::IOMemReader reader(
       const_cast<std::byte*>(bytes.data()),  // NOLINT: older releases take no pointer to const
       bytes.size());
-  return std::move(readOpened("memory." + format, &reader, false, name).front());
+  return std::move(readOpened("memory." + format, format, &reader, false, name).front());
 }
 
 void requireFinite(const StoredImage& image, const std::string& file) {

@@ -26,6 +26,60 @@ float normalizedScale(draco::DataType type) {
   }
 }
 
+// Counts that the start of the data states (Draco bitstream specification, 3.2 to 3.4 and 6). The
+// library allocates for them before it has seen a face.
+class Start {
+ public:
+  explicit Start(Bytes bytes) : bytes_(bytes) {}
+  uint64_t byte() { return at_ < bytes_.size() ? static_cast<uint64_t>(bytes_[at_++]) : 0; }
+  uint64_t word(int count) {
+    uint64_t value = 0;
+    for (int i = 0; i < count; ++i) value |= byte() << (8 * i);
+    return value;
+  }
+  uint64_t varint() {  // LEB128
+    uint64_t value = 0;
+    for (int shift = 0; shift < 35; shift += 7) {
+      const uint64_t b = byte();
+      value |= (b & 0x7f) << shift;
+      if (b < 0x80) break;
+    }
+    return value;
+  }
+
+ private:
+  Bytes bytes_;
+  size_t at_ = 0;
+};
+
+void checkCounts(Bytes bytes, const Json& extension) {
+  constexpr uint64_t kMagic = 0x4f43415244;  // "DRACO"
+  constexpr uint64_t kMetadata = 0x8000, kMesh = 1, kEdgebreaker = 1;
+  constexpr uint64_t kMostPerByte = 256;  // even a flat grid takes more
+  Start start(bytes);
+  const bool isDraco = start.word(5) == kMagic;
+  const uint64_t major = start.byte(), minor = start.byte(), version = major << 8 | minor;
+  const uint64_t type = start.byte(), method = start.byte(), flags = start.word(2);
+  if (!isDraco || type != kMesh) return;  // the library refuses it
+  if ((flags & kMetadata) != 0)
+    extension.fail("the Draco data have metadata, which is not read; encode the mesh without");
+  uint64_t counts[2];
+  const bool edgebreaker = method == kEdgebreaker;
+  if (edgebreaker) {
+    start.byte();  // how the connectivity is coded
+    if (version < 0x200) start.word(4);
+    if (version >= 0x200 && version < 0x202) start.varint();
+  }
+  const bool words = version < (edgebreaker ? 0x200u : 0x202u);
+  for (uint64_t& count : counts) count = words ? start.word(4) : start.varint();
+  for (const uint64_t count : counts)
+    if (count > bytes.size() * kMostPerByte)
+      extension.fail(
+          fmt::format("the Draco data state {} faces or vertices; their {} bytes cannot "
+                      "hold that many",
+                      count, bytes.size()));
+}
+
 FloatArray readAttribute(const draco::PointAttribute& attribute, size_t pointCount,
                          const Json& accessor, const Json& where) {
   FloatArray out;
@@ -60,6 +114,7 @@ std::optional<DracoPrimitive> decodeDraco(Document& document, const Json& primit
   const Json extension = primitive.extension("KHR_draco_mesh_compression");
   if (!extension.exists()) return {};
   const Bytes bytes = document.view(extension["bufferView"]).bytes;
+  checkCounts(bytes, extension);
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Decoder decoder;

@@ -69,7 +69,7 @@ std::vector<CameraKey> cameraPath(const Import& import, const Hierarchy& hierarc
       break;
     }
     const auto view = viewMatrix(worldAt(hierarchy, chain, static_cast<double>(time)));
-    if (view) path.push_back({time, Transform(*view * film)});
+    if (view && inverse(*view * film)) path.push_back({time, Transform(*view * film)});
   }
   return path;
 }
@@ -131,7 +131,7 @@ void addCamera(const Import& import, const Hierarchy& hierarchy, size_t node, co
                                   suggestion(type, {"perspective", "orthographic"})));
   }
   const std::optional<Mat4> view = viewMatrix(toWorld);
-  if (!view) {
+  if (!view || !inverse(*view * film)) {
     import.warn(nodeJson, "its camera is left out: the node's transform flattens space");
     return;
   }
@@ -145,7 +145,7 @@ void addLight(const Import& import, const Json& node, const Mat4& toWorld) {
   const Json lights = import.document.root().extension("KHR_lights_punctual")["lights"];
   const Json json = lights.at(index.index(lights.size(), "lights"));
   const std::optional<Mat4> view = viewMatrix(toWorld);
-  if (!view) {
+  if (!view || !inverse(*view)) {
     import.warn(node, "its light is left out: the node's transform flattens space");
     return;
   }

@@ -28,7 +28,7 @@ void ignoreSampling(Object& object) {
 
 Transform placement(Object& object) {
   const std::optional<Mat4> matrix = object.transform("to_world");
-  return matrix ? makeTransform(*matrix) : Transform();
+  return matrix ? makeTransform(*matrix, object.where()) : Transform();
 }
 
 void refuseBoth(Object& object, const std::string& name) {
@@ -86,7 +86,7 @@ void Reader::emitter(const Element& element) {
     refuseBoth(object, "position");
     e.toWorld = placement(object);
     if (const std::optional<Vec3d> p = object.vector("position")) {
-      e.toWorld = makeTransform(translation(*p));
+      e.toWorld = makeTransform(translation(*p), object.where());
     }
     e.radiance = color(object, "intensity", Rgb(1.f), SpectrumUse::emission);
   } else if (type == "spot") {

@@ -22,7 +22,13 @@ ReadingGuard::ReadingGuard(std::set<const Element*>& open, const Element& elemen
   }
 }
 
-Transform makeTransform(const Mat4& matrix) { return Transform(matrix); }
+Transform makeTransform(const Mat4& matrix, const Location& where) {
+  if (!inverse(matrix))
+    throw InputError(where,
+                     "the transform here has no inverse; it flattens everything or leaves "
+                     "the range of numbers");
+  return Transform(matrix);
+}
 
 void Reader::read() {
   Object root = open(document_.scene);
@@ -67,7 +73,7 @@ Scene readMitsuba(const std::string& file, const ReadSettings& settings, Context
   std::vector<Finding> found;
   Findings findings(found, settings.strict);
   const mitsuba::Document document = mitsuba::loadDocument(file, settings.definitions, findings);
-  mitsuba::Reader reader(document, scene, findings, context);
+  mitsuba::Reader reader(document, scene, settings.time, findings, context);
   reader.read();
   applyEnvironment(scene, settings);
   scene.findings = std::move(found);

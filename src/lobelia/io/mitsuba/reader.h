@@ -19,8 +19,9 @@ namespace lobelia::io::mitsuba {
 
 class Reader {
  public:
-  Reader(const Document& document, Scene& scene, Findings& findings, Context& context)
-      : document_(document), scene_(scene), findings_(findings), context_(context) {}
+  // time: when to look at what moves (cameras only).
+  Reader(const Document& document, Scene& scene, float time, Findings& findings, Context& context)
+      : document_(document), scene_(scene), time_(time), findings_(findings), context_(context) {}
 
   void read();
 
@@ -90,6 +91,7 @@ class Reader {
 
   // sensors.cpp
   void sensor(const Element& element);
+  std::vector<CameraKey> cameraKeys(const Element& animation) const;
   void film(const Element& element, Camera* out);
   void crop(Object& object, Camera* out);
   void reconstructionFilter(const Element& element, Camera* out);
@@ -111,6 +113,7 @@ class Reader {
 
   const Document& document_;
   Scene& scene_;
+  const float time_;
   Findings& findings_;
   Context& context_;
   std::map<const Element*, TextureHandle> textures_;
@@ -138,8 +141,8 @@ class ReadingGuard {
   const Element& element_;
 };
 
-// Transform of a parsed matrix (known to be invertible).
-Transform makeTransform(const Mat4& matrix);
+// Throws InputError when the matrix has no inverse.
+Transform makeTransform(const Mat4& matrix, const Location& where);
 // Horizontal field of view in radians of a perspective sensor or projector: fov with fov_axis, or
 // focal_length. aspect: width / height. Throws InputError.
 float fieldOfView(Object& object, double aspect);

@@ -2,6 +2,7 @@
 // integrator and the sampler, of which nothing prevents rendering.
 
 #include "lobelia/io/mitsuba/reader.h"
+#include "lobelia/scene/camera_path.h"
 
 namespace lobelia::io::mitsuba {
 namespace {
@@ -86,11 +87,15 @@ void Reader::sensor(const Element& element) {
   if (!films.empty()) film(*films[0], &camera);
   for (const Element* e : object.nested("sampler")) sampler(*e, &camera);
 
-  if (const std::optional<Mat4> matrix = object.transform("to_world")) {
-    camera.toWorld = makeTransform(*matrix);
-    if (type != "orthographic" && scaleError(*matrix) > 1e-3) {
-      findings_.warn(object.where(), "the to_world of a " + type + " sensor has a scale");
-    }
+  const Element* moving = object.property("to_world");
+  if (moving && moving->tag == "animation") {
+    camera.path = cameraKeys(*moving);
+    camera = cameraAt(camera, static_cast<double>(time_));
+  } else if (const std::optional<Mat4> matrix = object.transform("to_world")) {
+    camera.toWorld = makeTransform(*matrix, object.where());
+  }
+  if (type != "orthographic" && scaleError(camera.toWorld.to) > 1e-3) {
+    findings_.warn(object.where(), "the to_world of a " + type + " sensor has a scale");
   }
   camera.nearClip = object.number("near_clip", 1e-2f);
   camera.farClip = object.number("far_clip", 1e4f);
@@ -121,6 +126,33 @@ void Reader::sensor(const Element& element) {
   object.ignore({"shutter_open", "shutter_close", "id"});
   object.finish();
   scene_.cameras.push_back(std::move(camera));
+}
+
+// Mitsuba 0.6: <animation> of <transform time="seconds">.
+std::vector<CameraKey> Reader::cameraKeys(const Element& animation) const {
+  std::vector<CameraKey> keys;
+  for (const Element& child : animation.children) {
+    if (child.tag != "transform") {
+      throw InputError(child.where,
+                       "an <animation> holds <transform time=\"...\">, not <" + child.tag + ">");
+    }
+    const float time = static_cast<float>(parseNumber(child.value("time"), child));
+    if (!keys.empty() && !(time > keys.back().time)) {
+      throw InputError(child.where, "the times of an <animation> must rise from key to key");
+    }
+    keys.push_back({time, makeTransform(parseTransform(child), child.where)});
+    if ((keys.back().toWorld.to.determinant3() < 0) !=
+        (keys.front().toWorld.to.determinant3() < 0)) {
+      throw InputError(child.where,
+                       "this key is a mirror image of the first; no motion leads from one to the "
+                       "other");
+    }
+  }
+  if (keys.empty()) {
+    throw InputError(animation.where,
+                     "the <animation> has no keys; add <transform time=\"0\"> and others");
+  }
+  return keys;
 }
 
 void Reader::film(const Element& element, Camera* out) {
@@ -284,8 +316,8 @@ void Reader::integrator(const Element& element) {
 
 // What Mitsuba 3 does without a sensor: looks along +z at the whole scene.
 void Reader::defaultSensor() {
-  findings_.warn(document_.scene.where,
-                 "the scene has no sensor; one that sees the whole scene is added");
+  const Location& where = document_.scene.where;
+  findings_.warn(where, "the scene has no sensor; one that sees the whole scene is added");
   Camera camera;
   camera.fovX = kPi / 4;
   const Bounds3f box = bounds(scene_);
@@ -294,7 +326,8 @@ void Reader::defaultSensor() {
     const float distance = maxComponent(extent) / (2 * std::tan(kPi / 8));
     camera.toWorld =
         makeTransform(translation({static_cast<double>(centre.x), static_cast<double>(centre.y),
-                                   static_cast<double>(box.lo.z - distance)}));
+                                   static_cast<double>(box.lo.z - distance)}),
+                      where);
     camera.nearClip = std::max(distance / 100, 1e-6f);
     camera.farClip = 5 * maxComponent(extent) + distance + 1;
   }

@@ -92,7 +92,7 @@ void Reader::instance(Object& object) {
   const Mat4 toWorld = object.transform("to_world").value_or(Mat4{});
   object.finish();
   for (Instance copy : group(*groups[0])) {
-    copy.toWorld = makeTransform(toWorld * copy.toWorld.to);
+    copy.toWorld = makeTransform(toWorld * copy.toWorld.to, object.where());
     scene_.instances.push_back(std::move(copy));
   }
 }
@@ -121,7 +121,7 @@ Instance Reader::simpleShape(Object& object) {
     unknownType(object, shapeTypes());
   }
   if (!inverse(toWorld)) throw InputError(object.where(), "the shape is flattened to nothing");
-  out.toWorld = makeTransform(toWorld);
+  out.toWorld = makeTransform(toWorld, object.where());
   surface(object, &out);
   object.ignore({"silhouette_sampling_weight", "id"});
   object.finish();

@@ -65,7 +65,8 @@ bool Reader::isComputedSky(Object& object) {
 void Reader::sunAndSky(Object& object) {
   const bool hasSun = object.type() != "sky", hasSky = object.type() != "sun";
   const std::optional<Mat4> matrix = object.transform("to_world");
-  const Transform toWorld = makeTransform((matrix ? *matrix : Mat4()) * skyAxes(object.legacy()));
+  const Transform toWorld =
+      makeTransform((matrix ? *matrix : Mat4()) * skyAxes(object.legacy()), object.where());
   SkySettings settings;
   settings.turbidity = object.number("turbidity").value_or(3);
   settings.albedo = constantColor(object, "albedo", Rgb(object.legacy() ? 0.15f : 0.3f),
@@ -114,7 +115,7 @@ Emitter Reader::goniometric(Object& object) {
   Emitter e;
   e.type = EmitterType::goniometric;
   if (const std::optional<Mat4> matrix = object.transform("to_world")) {
-    e.toWorld = makeTransform(*matrix);
+    e.toWorld = makeTransform(*matrix, object.where());
   }
   e.scale = notNegative(object, "scale", 1);
   e.radiance = color(object, "intensity", Rgb(1.f), SpectrumUse::emission);

@@ -2,8 +2,9 @@
 // 1994, and the limit positions of both (Pharr, Jakob, Humphreys: Physically Based Rendering, 3rd
 // edition, section 3.8). Deviation: normals are those of the refined mesh, not of the limit's
 // tangents.
-#include <map>
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "lobelia/io/mesh_io.h"
 #include "lobelia/io/pbrt/tessellation.h"
@@ -11,41 +12,58 @@
 namespace lobelia::io::pbrt {
 namespace {
 
-using Edge = std::pair<uint32_t, uint32_t>;
-Edge edgeOf(uint32_t a, uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
-struct EdgeInfo {
+struct Edge {
+  uint32_t ends[2];  // the smaller first
   int faces = 0;
   uint32_t opposite[2] = {0, 0};
-  uint32_t middle = 0;  // the new vertex on it
 };
 
 struct Topology {
-  std::map<Edge, EdgeInfo> edges;
+  std::vector<Edge> edges;     // by their ends
+  std::vector<Vec3u> edgesOf;  // of a triangle: from corner i to corner i + 1
   std::vector<Vec3f> ringSum;  // of all neighbours
   std::vector<int> valence;
   std::vector<Vec3f> boundarySum;  // of the neighbours along the boundary
   std::vector<int> boundary;       // how many those are
 
   explicit Topology(const Mesh& mesh)
-      : ringSum(mesh.positions.size()),
+      : edgesOf(mesh.triangles.size()),
+        ringSum(mesh.positions.size()),
         valence(mesh.positions.size()),
         boundarySum(mesh.positions.size()),
         boundary(mesh.positions.size()) {
+    findEdges(mesh);
+    const std::vector<Vec3f>& p = mesh.positions;
+    for (const Edge& edge : edges) {
+      const uint32_t a = edge.ends[0], b = edge.ends[1];
+      ringSum[a] += p[b], ringSum[b] += p[a];
+      ++valence[a], ++valence[b];
+      if (edge.faces == 2) continue;
+      boundarySum[a] += p[b], boundarySum[b] += p[a];
+      ++boundary[a], ++boundary[b];
+    }
+  }
+
+ private:
+  void findEdges(const Mesh& mesh) {
+    std::vector<std::pair<uint64_t, uint32_t>> sides;  // both ends; 3 triangle + corner
+    sides.reserve(3 * mesh.triangles.size());
     for (const Vec3u t : mesh.triangles) {
       for (int i = 0; i < 3; ++i) {
-        EdgeInfo& edge = edges[edgeOf(t[i], t[(i + 1) % 3])];
-        if (edge.faces < 2) edge.opposite[edge.faces] = t[(i + 2) % 3];
-        ++edge.faces;
+        const uint32_t a = t[i], b = t[(i + 1) % 3];
+        sides.emplace_back(uint64_t{std::min(a, b)} << 32 | std::max(a, b), sides.size());
       }
     }
-    const std::vector<Vec3f>& p = mesh.positions;
-    for (const auto& [e, info] : edges) {
-      ringSum[e.first] += p[e.second], ringSum[e.second] += p[e.first];
-      ++valence[e.first], ++valence[e.second];
-      if (info.faces == 2) continue;
-      boundarySum[e.first] += p[e.second], boundarySum[e.second] += p[e.first];
-      ++boundary[e.first], ++boundary[e.second];
+    std::sort(sides.begin(), sides.end());
+    for (size_t k = 0; k < sides.size(); ++k) {
+      const auto [ends, side] = sides[k];
+      if (k == 0 || ends != sides[k - 1].first)
+        edges.push_back({{static_cast<uint32_t>(ends >> 32), static_cast<uint32_t>(ends)}});
+      Edge& edge = edges.back();
+      const int corner = static_cast<int>(side % 3);
+      if (edge.faces < 2) edge.opposite[edge.faces] = mesh.triangles[side / 3][(corner + 2) % 3];
+      ++edge.faces;
+      edgesOf[side / 3][corner] = static_cast<uint32_t>(edges.size() - 1);
     }
   }
 };
@@ -63,25 +81,26 @@ Vec3f smoothed(const Topology& t, Vec3f p, size_t v, float inner, float outer) {
 }
 
 Mesh refine(const Mesh& mesh) {
-  Topology t(mesh);
+  const Topology t(mesh);
+  const auto count = static_cast<uint32_t>(mesh.positions.size());
   Mesh out;
-  out.positions.resize(mesh.positions.size());
-  for (size_t v = 0; v < mesh.positions.size(); ++v)
-    out.positions[v] = smoothed(t, mesh.positions[v], v, beta(t.valence[v]), 1.f / 8);
-  for (auto& [e, info] : t.edges) {
-    const Vec3f ends = mesh.positions[e.first] + mesh.positions[e.second];
+  out.positions.reserve(count + t.edges.size());
+  for (size_t v = 0; v < count; ++v)
+    out.positions.push_back(smoothed(t, mesh.positions[v], v, beta(t.valence[v]), 1.f / 8));
+  for (const Edge& edge : t.edges) {  // edge e gets vertex count + e
+    const Vec3f ends = mesh.positions[edge.ends[0]] + mesh.positions[edge.ends[1]];
     Vec3f p = ends * 0.5f;
-    if (info.faces == 2) {
+    if (edge.faces == 2) {
       p = ends * (3.f / 8) +
-          (mesh.positions[info.opposite[0]] + mesh.positions[info.opposite[1]]) * (1.f / 8);
+          (mesh.positions[edge.opposite[0]] + mesh.positions[edge.opposite[1]]) * (1.f / 8);
     }
-    info.middle = static_cast<uint32_t>(out.positions.size());
     out.positions.push_back(p);
   }
   out.triangles.reserve(4 * mesh.triangles.size());
-  for (const Vec3u f : mesh.triangles) {
-    const auto middle = [&](int i) { return t.edges[edgeOf(f[i], f[(i + 1) % 3])].middle; };
-    const uint32_t m0 = middle(0), m1 = middle(1), m2 = middle(2);
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vec3u f = mesh.triangles[i];
+    const uint32_t m0 = count + t.edgesOf[i].x, m1 = count + t.edgesOf[i].y,
+                   m2 = count + t.edgesOf[i].z;
     out.triangles.push_back({f.x, m0, m2});
     out.triangles.push_back({m0, f.y, m1});
     out.triangles.push_back({m2, m1, f.z});

@@ -42,12 +42,12 @@ std::vector<double> Reader::numbers(const Token& directive, size_t count) {
 }
 
 void Reader::concatenate(const Token& directive, const Mat4& matrix, bool replace) {
-  if (!matrix.isFinite() || !inverse(matrix)) {
+  const Mat4 next = replace || !state_.atStart ? matrix : state_.ctm * matrix;
+  if (!matrix.isFinite() || !inverse(matrix) || !inverse(next)) {
     throw InputError(directive.where,
                      fmt::format("{} gives a matrix without an inverse", directive.text));
   }
-  if (!state_.atStart) return;
-  state_.ctm = replace ? matrix : state_.ctm * matrix;
+  if (state_.atStart) state_.ctm = next;
 }
 
 void Reader::identity(const Token& token) { concatenate(token, Mat4(), true); }
@@ -73,7 +73,7 @@ void Reader::lookAt(const Token& token) {
   const std::vector<double> n = numbers(token, 9);
   const std::optional<Mat4> toWorld =
       lobelia::lookAt({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]});
-  if (!toWorld) {
+  if (!toWorld || !inverse(*toWorld)) {
     throw InputError(token.where,
                      "LookAt has no direction, or its up vector lies along it; it takes eye, "
                      "target and up");
