@@ -50,6 +50,19 @@ std::vector<Damage> damages() {
        [](Scene& s) { s.meshes[0].positions[2].y = kNan; },
        error,
        {"mesh 'square'", "1 of 4 vertices", "finite"}},
+      {"camera keys",
+       [](Scene& s) {
+         s.cameras[0].path = {{1, {}}, {2, {}}, {2, {}}};
+       },
+       error,
+       {"camera 'front'", "must rise", "key 2"}},
+      {"camera key",
+       [](Scene& s) {
+         s.cameras[0].path.resize(1);
+         s.cameras[0].path[0].toWorld.to.m[0][3] = static_cast<double>(kNan);
+       },
+       error,
+       {"camera 'front', key 0", "finite"}},
       {"index",
        [](Scene& s) { s.meshes[0].triangles[1].z = 4; },
        error,

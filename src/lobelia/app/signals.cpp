@@ -26,20 +26,20 @@ void install(void (*handler)(int)) {
 
 }  // namespace
 
-SignalGuard::SignalGuard(Context& context) {
+SignalGuard::SignalGuard(Context& context) : outer_(activeContext.load()) {
+  if (!outer_) receivedSignal = 0;
   activeContext = &context;
-  receivedSignal = 0;
-  install(onSignal);
+  if (!outer_) {
+    install(onSignal);
+  } else if (receivedSignal.load() != 0) {
+    context.cancel();
+  }
 }
 
 SignalGuard::~SignalGuard() {
-  install(SIG_DFL);
-  activeContext = nullptr;
-}
-
-void SignalGuard::watch(Context& context) {
-  activeContext = &context;
-  if (receivedSignal.load() != 0) context.cancel();
+  if (!outer_) install(SIG_DFL);
+  activeContext = outer_;
+  if (outer_ && receivedSignal.load() != 0) outer_->cancel();
 }
 
 ExitCode signalExitCode() {

@@ -7,14 +7,16 @@
 
 namespace lobelia::app {
 
+// Guards nest: signals cancel the innermost one's context, and the outer one's when that is gone.
 class SignalGuard {
  public:
   explicit SignalGuard(Context& context);
   ~SignalGuard();
-  // Signals cancel this context from now on: at once when one came already.
-  void watch(Context& context);
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;
+
+ private:
+  Context* const outer_;
 };
 
 // done, or interrupted/terminated when a signal came.

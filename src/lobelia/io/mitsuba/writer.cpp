@@ -114,14 +114,29 @@ void property(pugi::xml_node parent, const char* tag, const char* name, const st
   node.append_attribute("value") = value.c_str();
 }
 
-void transform(pugi::xml_node parent, const char* name, const Mat4& matrix) {
-  if (matrix.isIdentity()) return;
+void appendMatrix(pugi::xml_node transform, const Mat4& matrix) {
   std::string numbers;
   for (const auto& row : matrix.m)
     for (const double v : row) numbers += fmt::format("{}{}", numbers.empty() ? "" : " ", v);
+  transform.append_child("matrix").append_attribute("value") = numbers.c_str();
+}
+
+void transform(pugi::xml_node parent, const char* name, const Mat4& matrix) {
+  if (matrix.isIdentity()) return;
   pugi::xml_node node = parent.append_child("transform");
   node.append_attribute("name") = name;
-  node.append_child("matrix").append_attribute("value") = numbers.c_str();
+  appendMatrix(node, matrix);
+}
+
+// As Mitsuba 0.6 has it; Mitsuba 3 knows no moving sensors.
+void animation(pugi::xml_node parent, const char* name, const std::vector<CameraKey>& keys) {
+  pugi::xml_node node = parent.append_child("animation");
+  node.append_attribute("name") = name;
+  for (const CameraKey& key : keys) {
+    pugi::xml_node transform = node.append_child("transform");
+    transform.append_attribute("time") = fmt::format("{}", key.time).c_str();
+    appendMatrix(transform, key.toWorld.to);
+  }
 }
 
 Writer::Writer(const Scene& scene, std::string folder)
@@ -172,7 +187,11 @@ void Writer::writeCameras() {
       property(node, "float", "focus_distance", text(camera.focusDistance));
     if (perspective && lens)
       property(node, "float", "aperture_radius", text(camera.apertureRadius));
-    transform(node, "to_world", camera.toWorld.to);
+    if (camera.path.empty()) {
+      transform(node, "to_world", camera.toWorld.to);
+    } else {
+      animation(node, "to_world", camera.path);
+    }
     if (camera.spp > 0)
       property(object(node, "sampler", "independent"), "integer", "sample_count",
                std::to_string(camera.spp));

@@ -1,0 +1,89 @@
+#include "lobelia/app/render_frame.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "lobelia/app/checkpoint_file.h"
+#include "lobelia/app/frame_setup.h"
+#include "lobelia/app/light_layers.h"
+#include "lobelia/app/render_virtual_lights.h"
+#include "lobelia/app/statistics_file.h"
+#include "lobelia/version.h"
+
+namespace lobelia::app {
+namespace {
+
+PathSettings pathSettings(const Scene& scene, const Camera& camera, const PixelSet& pixels,
+                          int maxDepth, const RenderOptions& options) {
+  PathSettings settings;
+  settings.spp = options.spp > 0 ? options.spp : camera.spp > 0 ? camera.spp : 64;
+  settings.maxDepth = maxDepth;
+  settings.specularLimit = options.specularLimit;
+  settings.component = componentOf(options);
+  settings.timeLimit = options.timeLimit;
+  settings.hideEmitters = scene.hideEmitters;
+  settings.pixels = pixels;
+  return settings;
+}
+
+void setMetadata(Film& film, const Scene& scene, const RenderOptions& options,
+                 const std::string& commandLine, double seconds) {
+  film.metadata["lobelia:version"] = kVersion;
+  film.metadata["lobelia:command"] = commandLine;
+  film.metadata["lobelia:seed"] = std::to_string(options.seed);
+  film.metadata["lobelia:scene"] = scene.file.empty() ? scene.name : scene.file;
+  film.metadata["lobelia:seconds"] = fmt::format("{:.3f}", seconds);
+}
+
+}  // namespace
+
+bool usesVirtualLights(const RenderOptions& options) {
+  return options.lights != "path" && options.lights != "light";
+}
+
+void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& context) {
+  const RenderOptions& options = frame.options;
+  const Scene& scene = run.scene;
+  const Camera& camera = frame.camera;
+  const PixelSet pixels = choosePixels(camera, options);
+  Film film = makeFilm(camera, options);
+  const int maxDepth = options.maxDepth > 0 ? options.maxDepth : scene.maxDepth;
+  addLightLayers(run.emitters.groups(), options, film);
+  const std::unique_ptr<Checkpoints> checkpoints =
+      openCheckpoint(scene, camera, maxDepth, options, context);
+  if (run.display) run.display->begin(film);
+
+  VirtualLightReport report;
+  const int64_t renderStart = nanosecondsNow();
+  if (!usesVirtualLights(options)) {
+    PathSettings settings = pathSettings(scene, camera, pixels, maxDepth, options);
+    settings.checkpoints = checkpoints.get();
+    settings.preview = run.display;
+    const auto method = options.lights == "path" ? renderPath : renderLight;
+    const StageTimer timer(context, "trace");
+    method(run.tracer, run.emitters, camera, settings, film, context);
+  } else {
+    markPixels(film, pixels);
+    report = renderVirtualLights(run.tracer, run.emitters, camera, pixels, maxDepth, options, film,
+                                 context, checkpoints.get(), run.display,
+                                 run.lights ? &*run.lights : nullptr);
+    if (options.frames > 1 && !run.lights) run.lights = report.lights;
+  }
+  composePicture(film, options);
+  context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);
+
+  if (const uint64_t bad = countNonFinite(film) + context.statistics.count("nonfinite"); bad > 0) {
+    context.warning(fmt::format("{} non-finite values", bad));
+  }
+  setMetadata(film, scene, options, run.commandLine, context.statistics.seconds("total"));
+  if (options.frames > 0) film.metadata["lobelia:frame"] = std::to_string(frame.number);
+  writeOutputs(film, options, run.curve, context);
+  if (!options.stats.empty()) writeStatistics(options.stats, options, scene, film, report, context);
+  context.info(fmt::format("{:.2f} s rendering, {:.2f} s in all",
+                           static_cast<double>(nanosecondsNow() - renderStart) * 1e-9,
+                           context.statistics.seconds("total")));
+  if (run.display) run.display->finish(film);
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,30 @@
+// The life of one picture: its film, rendered by a method, in files.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lobelia/app/display.h"
+#include "lobelia/app/frames.h"
+#include "lobelia/film/film.h"
+#include "lobelia/lights/light_pass.h"
+
+namespace lobelia::app {
+
+// What the frames of a run share.
+struct FrameRun {
+  const Scene& scene;
+  const Tracer& tracer;
+  const EmitterSampler& emitters;
+  const std::string& commandLine;
+  Display* display = nullptr;           // null: nobody looks on
+  std::optional<ToneCurve> curve;       // of all PNG files
+  std::optional<VirtualLights> lights;  // the first set
+};
+
+bool usesVirtualLights(const RenderOptions& options);
+// start: when work for this frame began (its statistics' total). When cancelled, what there is gets
+// written.
+void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& context);
+
+}  // namespace lobelia::app
