@@ -112,11 +112,11 @@ TEST(Bsdf, TwoSidedLobesActAlike) {
 
 TEST(Bsdf, ImportanceCorrectsShadingNormals) {
   Bsdf bsdf = single(simple(LobeType::lambert));
-  bsdf.frame = frameFromNormal(normalize(Vec3f(0.3f, 0, 1)));
+  bsdf.frames[0] = frameFromNormal(normalize(Vec3f(0.3f, 0, 1)));
   const Vec3f wo = directionAt(0.8f, 1), wi = directionAt(0.6f, 3);
   const float radiance = evaluate(bsdf, wo, wi).x;
   const float importance = evaluate(bsdf, wo, wi, LobeSet::all, Transport::importance).x;
-  const Vec3f n = bsdf.frame.n;
+  const Vec3f n = bsdf.frames[0].n;
   // Adjoint: what the same light path carries the other way round, per projected area.
   const float reversed = evaluate(bsdf, wi, wo).x;
   EXPECT_NEAR(importance / wi.z, reversed / wo.z, 1e-5f);
@@ -125,12 +125,12 @@ TEST(Bsdf, ImportanceCorrectsShadingNormals) {
 
 TEST(Bsdf, PerturbedNormalsMustAgree) {
   Bsdf bsdf = single(simple(LobeType::lambert));
-  bsdf.frame = frameFromNormal(normalize(Vec3f(1, 0, 1)));
-  bsdf.perturbed = true;
+  bsdf.frames[0] = frameFromNormal(normalize(Vec3f(1, 0, 1)));
+  bsdf.frames[0].perturbed = true;
   const Vec3f wo = directionAt(0.9f, 0);
   EXPECT_GT(evaluate(bsdf, wo, directionAt(0.2f, 0)).x, 0.f);
   const Vec3f below = directionAt(-0.2f, 0);  // above the tilted plane, below the surface
-  ASSERT_GT(dot(below, bsdf.frame.n), 0.f);
+  ASSERT_GT(dot(below, bsdf.frames[0].n), 0.f);
   EXPECT_EQ(evaluate(bsdf, wo, below).x, 0.f);
   EXPECT_EQ(pdf(bsdf, wo, below), 0.f);
   Rng rng(1);

@@ -47,15 +47,15 @@ Lobe transmission(float alpha, float eta) {
 
 Bsdf bsdfOf(const Lobe& lobe) {
   Bsdf bsdf;
-  bsdf.frame = frameFromNormalTangent(normalize(Vec3f(0.2f, -0.4f, 0.9f)), {1, 0.3f, 0});
-  bsdf.ng = bsdf.baseNormal = bsdf.frame.n;
+  bsdf.frames[0] = frameFromNormalTangent(normalize(Vec3f(0.2f, -0.4f, 0.9f)), {1, 0.3f, 0});
+  bsdf.ng = bsdf.baseNormal = bsdf.frames[0].n;
   bsdf.add(lobe);
   return bsdf;
 }
 
 Vec3f direction(const Bsdf& bsdf, float degrees, float azimuth = 0) {
   const float t = degrees * kPi / 180, s = std::sin(t);
-  return bsdf.frame.toWorld({s * std::cos(azimuth), s * std::sin(azimuth), std::cos(t)});
+  return bsdf.frames[0].toWorld({s * std::cos(azimuth), s * std::sin(azimuth), std::cos(t)});
 }
 
 float intensity(const LobeExpansion& e, Vec3f w) {
@@ -76,7 +76,7 @@ struct Fit {
 };
 Fit fitOf(const Bsdf& bsdf, Vec3f wi, int gaussiansPerLobe) {
   const LobeExpansion e = expand(bsdf, wi, gaussiansPerLobe);
-  const Vec3f n = bsdf.frame.n;
+  const Vec3f n = bsdf.frames[0].n;
   Vec3f pole = n * (2 * dot(n, wi)) - wi;
   if (e.count > 0 && dot(e.gaussians[0].normal, wi) < 0) {
     pole = e.gaussians[static_cast<size_t>(e.count / 2)].axis;
@@ -267,7 +267,7 @@ TEST(Expand, DiffuseLobesKeepTheirAlbedo) {
   EXPECT_EQ(behind.count, 0);
   bsdf = bsdfOf(coated);
   const Vec3f wi = direction(bsdf, 50);
-  const double exact = test::integrateSphere(bsdf.frame.n, 400, 64,
+  const double exact = test::integrateSphere(bsdf.frames[0].n, 400, 64,
                                              [&](Vec3f w) { return evaluate(bsdf, wi, w).x; });
   EXPECT_NEAR(static_cast<double>(expand(bsdf, wi, 9).diffuse.x) / exact, 1, 0.005);
 }
@@ -290,8 +290,8 @@ TEST(Expand, IsFiniteForEveryLobeAndAngle) {
   Rng rng(3);
   for (int i = 0; i < 6000; ++i) {
     Bsdf bsdf;
-    bsdf.frame = frameFromNormal(sampleSphereUniform(rng.next2D()));
-    bsdf.ng = bsdf.frame.n;
+    bsdf.frames[0] = frameFromNormal(sampleSphereUniform(rng.next2D()));
+    bsdf.ng = bsdf.frames[0].n;
     const int lobeCount = 1 + static_cast<int>(rng.nextUint() % 3);
     for (int k = 0; k < lobeCount; ++k) {
       const auto alpha = [&] { return std::exp(-7 * rng.next1D()); };
@@ -306,8 +306,8 @@ TEST(Expand, IsFiniteForEveryLobeAndAngle) {
       bsdf.add(lobe);
     }
     Vec3f wi = sampleSphereUniform(rng.next2D());
-    if (i % 5 == 0) wi = normalize(wi - bsdf.frame.n * (dot(wi, bsdf.frame.n) * 0.9999f));
-    if (i % 7 == 0) wi = bsdf.frame.n;
+    if (i % 5 == 0) wi = normalize(wi - bsdf.frames[0].n * (dot(wi, bsdf.frames[0].n) * 0.9999f));
+    if (i % 7 == 0) wi = bsdf.frames[0].n;
     const LobeExpansion e = expand(bsdf, wi, 1 + static_cast<int>(rng.nextUint() % 32));
     ASSERT_LE(e.count, LobeExpansion::kMaxGaussians);
     for (int k = 0; k < e.count; ++k) {

@@ -47,7 +47,7 @@ class Oracle {
   }
   Vec3d lobes(const ReceiverPoint& point, Vec3d wi) const {
     Bsdf bsdf;
-    bsdf.frame = point.frame;
+    bsdf.frames[0] = point.frame;
     bsdf.ng = point.ng;
     for (size_t l = 0; l < point.lobeCount; ++l) bsdf.add(receivers_.lobes[point.firstLobe + l]);
     return toDouble(evaluate(bsdf, point.wo, toFloat(wi)));

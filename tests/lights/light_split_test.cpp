@@ -96,7 +96,7 @@ class Split {
     parallelFor(values.size(), 64, [&](size_t i) {
       const ReceiverPoint& r = receivers.points[i];
       Bsdf bsdf;
-      bsdf.frame = r.frame;
+      bsdf.frames[0] = r.frame;
       bsdf.ng = r.ng;
       for (uint32_t k = 0; k < r.lobeCount; ++k) bsdf.add(receivers.lobes[r.firstLobe + k]);
       Rng random(salt, i);

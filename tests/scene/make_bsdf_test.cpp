@@ -276,15 +276,15 @@ TEST(MakeBsdf, NormalMapTurnsTheFrame) {
   m.map = addConstant(f.scene, (n + Vec3f(1.f)) * 0.5f);
   const Vec3f wo = directionAt(0.9f, 1), wi = directionAt(0.8f, 2);
   const Bsdf bsdf = f.make(f.add(m), wo);
-  EXPECT_NEAR(dot(bsdf.frame.n, n), 1.f, 1e-5f);
-  EXPECT_NEAR(dot(bsdf.frame.s, bsdf.frame.n), 0.f, 1e-6f);
-  EXPECT_NEAR(dot(cross(bsdf.frame.s, bsdf.frame.t), bsdf.frame.n), 1.f, 1e-5f);
+  EXPECT_NEAR(dot(bsdf.frames[0].n, n), 1.f, 1e-5f);
+  EXPECT_NEAR(dot(bsdf.frames[0].s, bsdf.frames[0].n), 0.f, 1e-6f);
+  EXPECT_NEAR(dot(cross(bsdf.frames[0].s, bsdf.frames[0].t), bsdf.frames[0].n), 1.f, 1e-5f);
   // The softened terminator [Estevez19], written down once more.
   const float terrain = std::min(0.125f * (1 / sqr(n.z) - 1), 1.f);
   const float shadow = 2 / (1 + std::sqrt(1 + terrain * (1 / sqr(wi.z) - 1)));
   EXPECT_NEAR(evaluate(bsdf, wo, wi).x, dot(wi, n) * kInvPi * shadow, 1e-5f);
   EXPECT_LT(shadow, 0.999f);
-  EXPECT_TRUE(bsdf.perturbed);
+  EXPECT_TRUE(bsdf.frames[0].perturbed);
   // Neutral: nothing changes.
   m.map = addConstant(f.scene, {0.5f, 0.5f, 1});
   EXPECT_NEAR(evaluate(f.make(f.add(m), wo), wo, wi).x, wi.z * kInvPi, 1e-6f);
@@ -298,8 +298,8 @@ TEST(MakeBsdf, NormalsThatFaceAwayAreTurned) {
   const MaterialHandle handle = f.add(m);
   const Vec3f away = directionAt(0.3f, kPi);  // behind n, above the surface
   ASSERT_LT(dot(away, n), 0.f);
-  EXPECT_NEAR(dot(f.make(handle, away).frame.n, Vec3f(-n.x, 0, n.z)), 1.f, 1e-5f);
-  EXPECT_NEAR(dot(f.make(handle, directionAt(0.3f, 0)).frame.n, n), 1.f, 1e-5f);
+  EXPECT_NEAR(dot(f.make(handle, away).frames[0].n, Vec3f(-n.x, 0, n.z)), 1.f, 1e-5f);
+  EXPECT_NEAR(dot(f.make(handle, directionAt(0.3f, 0)).frames[0].n, n), 1.f, 1e-5f);
 }
 
 // Height u * slope: the normal leans back by it. A ramp image of the same slope everywhere.
@@ -323,13 +323,13 @@ TEST(MakeBsdf, BumpMapLeansTheNormal) {
   const MaterialHandle m = addRamp(f, 0.5f, f.add(diffuse(Rgb(1.f))));
   const Vec3f n = normalize(Vec3f(-0.5f, 0, 1));
   const Vec3f wo = directionAt(0.9f, 1);
-  EXPECT_NEAR(dot(f.make(m, wo).frame.n, n), 1.f, 1e-5f);
+  EXPECT_NEAR(dot(f.make(m, wo).frames[0].n, n), 1.f, 1e-5f);
   // Larger tangents: less steep.
   f.at.dpdu = {2, 0, 0};
-  EXPECT_NEAR(dot(f.make(m, wo).frame.n, normalize(Vec3f(-0.25f, 0, 1))), 1.f, 1e-5f);
+  EXPECT_NEAR(dot(f.make(m, wo).frames[0].n, normalize(Vec3f(-0.25f, 0, 1))), 1.f, 1e-5f);
   // The other handedness of uv keeps the normal outside.
   f.at.dpdu = {-1, 0, 0};
-  EXPECT_NEAR(dot(f.make(m, wo).frame.n, normalize(Vec3f(0.5f, 0, 1))), 1.f, 1e-5f);
+  EXPECT_NEAR(dot(f.make(m, wo).frames[0].n, normalize(Vec3f(0.5f, 0, 1))), 1.f, 1e-5f);
 }
 
 TEST(MakeBsdf, TwoSidedBumpIsMirroredBehind) {

@@ -1,6 +1,8 @@
 // A Bsdf as the mixture of its lobes. Lobes are chosen by Lobe::selection among those of the set
 // that act for wo; densities are those of the whole mixture (balance heuristic over lobes). The two
-// lobes of a rough interface (Lobe::variant) are one choice: see sampleInterface().
+// lobes of a rough interface (Lobe::variant) are one choice: see sampleInterface(). Each lobe is
+// evaluated in its own frame; which side of its surface a direction is on, each frame decides for
+// its lobes.
 #include "lobelia/bsdf/bsdf.h"
 
 #include <cmath>
@@ -24,44 +26,66 @@ bool isInterfacePair(const Bsdf& bsdf, int i) {
          bsdf.lobes[i].sharp == bsdf.lobes[i + 1].sharp;
 }
 
-float totalSelection(const Bsdf& bsdf, float cosThetaO, LobeSet set) {
+// A direction in all frames.
+struct Local {
+  Vec3f frames[kMaxFrames];
+  Local(const Bsdf& bsdf, Vec3f w) {
+    for (int f = 0; f < bsdf.frameCount; ++f) frames[f] = bsdf.frames[f].toLocal(w);
+  }
+  Vec3f of(const Lobe& lobe) const { return frames[lobe.frame]; }
+};
+
+float totalSelection(const Bsdf& bsdf, const Local& o, LobeSet set) {
   float total = 0;
   for (int i = 0; i < bsdf.lobeCount; ++i) {
     const Lobe& lobe = bsdf.lobes[i];
-    if (inSet(lobe, set) && isActive(lobe, cosThetaO)) total += lobe.selection;
+    if (inSet(lobe, set) && isActive(lobe, o.of(lobe).z)) total += lobe.selection;
   }
   return total;
 }
 
 // Are perturbed and unperturbed normal on the same side of the direction?
-bool agrees(const Bsdf& bsdf, Vec3f w, float cosPerturbed) {
-  return !bsdf.perturbed || dot(w, bsdf.baseNormal) * cosPerturbed > 0;
+bool agrees(const Bsdf& bsdf, const ShadingFrame& frame, Vec3f w, float cosPerturbed) {
+  return !frame.perturbed || dot(w, bsdf.baseNormal) * cosPerturbed > 0;
+}
+
+// One bit per frame.
+using FrameBits = uint32_t;
+FrameBits agreeing(const Bsdf& bsdf, Vec3f w, const Local& local) {
+  FrameBits bits = 0;
+  for (int f = 0; f < bsdf.frameCount; ++f)
+    if (agrees(bsdf, bsdf.frames[f], w, local.frames[f].z)) bits |= FrameBits{1} << f;
+  return bits;
 }
 
 // Adjoint of a BSDF with shading normals, Veach 1997, section 5.3.2.
-float shadingNormalCorrection(const Bsdf& bsdf, Vec3f wo, Vec3f wi) {
-  const float numerator = std::abs(dot(wo, bsdf.frame.n) * dot(wi, bsdf.ng));
-  const float denominator = std::abs(dot(wo, bsdf.ng) * dot(wi, bsdf.frame.n));
+float shadingNormalCorrection(const Bsdf& bsdf, Vec3f n, Vec3f wo, Vec3f wi) {
+  const float numerator = std::abs(dot(wo, n) * dot(wi, bsdf.ng));
+  const float denominator = std::abs(dot(wo, bsdf.ng) * dot(wi, n));
   return denominator > 0 ? numerator / denominator : 0.f;
 }
 
 // Factor from radiance to importance transport of a direction pair.
 float importanceFactor(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, Vec3f wi) {
-  float factor = shadingNormalCorrection(bsdf, wo, wi);
+  const Vec3f n = bsdf.frameOf(lobe).n;
+  float factor = shadingNormalCorrection(bsdf, n, wo, wi);
   if (lobe.type == LobeType::microfacetTransmission || lobe.type == LobeType::deltaTransmission)
-    factor *= sqr(relativeEta(lobe, dot(wo, bsdf.frame.n) < 0));
+    factor *= sqr(relativeEta(lobe, dot(wo, n) < 0));
   return factor;
 }
 
-float mixturePdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set) {
+float mixturePdf(const Bsdf& bsdf, const Local& o, const Local& i, FrameBits frames, LobeSet set) {
   float sum = 0;
-  for (int i = 0; i < bsdf.lobeCount; ++i) {
-    const Lobe& lobe = bsdf.lobes[i];
+  for (int l = 0; l < bsdf.lobeCount; ++l) {
+    const Lobe& lobe = bsdf.lobes[l];
+    const Vec3f wo = o.of(lobe), wi = i.of(lobe);
     if (!inSet(lobe, set) || !isActive(lobe, wo.z) || isDelta(lobe)) continue;
-    if (isInterfacePair(bsdf, i)) {
-      const Lobe& other = bsdf.lobes[++i];
+    const bool agree = (frames >> lobe.frame & 1) != 0;
+    if (isInterfacePair(bsdf, l)) {
+      const Lobe& other = bsdf.lobes[++l];
+      if (!agree) continue;
       sum += (lobe.selection + other.selection) * interfacePdf(lobe, other, wo, wi);
-    } else {
+    } else if (agree) {
       sum += lobe.selection * lobePdf(lobe, wo, wi);
     }
   }
@@ -96,45 +120,48 @@ std::optional<DeltaEvent> deltaEvent(const Lobe& lobe, Vec3f wo) {
   return event;
 }
 
-// o, i: wo, wi in the frame. Taken apart from the world's directions because rounding them matters
-// where alpha is 1e-4.
-Rgb evaluateLocal(const Bsdf& bsdf, Vec3f wo, Vec3f wi, Vec3f o, Vec3f i, LobeSet set,
-                  Transport transport) {
+// o, i: wo, wi in the frames; those in `agreeing` take part. Taken apart from the world's
+// directions because rounding them matters where alpha is 1e-4.
+Rgb evaluateLocal(const Bsdf& bsdf, Vec3f wo, Vec3f wi, const Local& o, const Local& i,
+                  FrameBits frames, LobeSet set, Transport transport) {
   Rgb sum{};
-  const float shadow =
-      bumpShadow(bsdf.baseNormal, bsdf.bumpAlpha2, transport == Transport::radiance ? wi : wo);
+  float shadow[kMaxFrames];
+  for (int f = 0; f < bsdf.frameCount; ++f)
+    shadow[f] = bumpShadow(bsdf.baseNormal, bsdf.frames[f].bumpAlpha2,
+                           transport == Transport::radiance ? wi : wo);
   for (int l = 0; l < bsdf.lobeCount; ++l) {
     const Lobe& lobe = bsdf.lobes[l];
-    if (!inSet(lobe, set) || isDelta(lobe)) continue;
-    const Rgb value = evaluateLobe(lobe, o, i);
+    if (!inSet(lobe, set) || isDelta(lobe) || (frames >> lobe.frame & 1) == 0) continue;
+    const Rgb value = evaluateLobe(lobe, o.of(lobe), i.of(lobe)) * shadow[lobe.frame];
     if (transport == Transport::radiance) {
       sum += value;
     } else {
       sum += value * importanceFactor(bsdf, lobe, wo, wi);
     }
   }
-  return sum * shadow;
+  return sum;
 }
 
 }  // namespace
 
 Rgb evaluate(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set, Transport transport) {
-  const Vec3f o = bsdf.frame.toLocal(wo), i = bsdf.frame.toLocal(wi);
-  if (!agrees(bsdf, wi, i.z)) return {};
-  return evaluateLocal(bsdf, wo, wi, o, i, set, transport);
+  const Local o(bsdf, wo), i(bsdf, wi);
+  const FrameBits frames = agreeing(bsdf, wi, i);
+  if (frames == 0) return {};
+  return evaluateLocal(bsdf, wo, wi, o, i, frames, set, transport);
 }
 
 float pdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set) {
-  const Vec3f o = bsdf.frame.toLocal(wo), i = bsdf.frame.toLocal(wi);
-  const float total = totalSelection(bsdf, o.z, set);
-  if (!(total > 0) || !agrees(bsdf, wi, i.z)) return 0;
-  return mixturePdf(bsdf, o, i, set) / total;
+  const Local o(bsdf, wo), i(bsdf, wi);
+  const float total = totalSelection(bsdf, o, set);
+  if (!(total > 0)) return 0;
+  return mixturePdf(bsdf, o, i, agreeing(bsdf, wi, i), set) / total;
 }
 
 std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f u, LobeSet set,
                                  Transport transport) {
-  const Vec3f o = bsdf.frame.toLocal(wo);
-  const float total = totalSelection(bsdf, o.z, set);
+  const Local local(bsdf, wo);
+  const float total = totalSelection(bsdf, local, set);
   if (!(total > 0)) return std::nullopt;
 
   // The last lobe that takes part catches what rounding leaves over.
@@ -143,7 +170,7 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f 
   bool pair = false;
   for (int i = 0; i < bsdf.lobeCount; ++i) {
     const Lobe& lobe = bsdf.lobes[i];
-    if (!inSet(lobe, set) || !isActive(lobe, o.z)) continue;
+    if (!inSet(lobe, set) || !isActive(lobe, local.of(lobe).z)) continue;
     if (chosen >= 0) target -= share;
     chosen = i;
     pair = isInterfacePair(bsdf, i);
@@ -152,6 +179,8 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f 
     if (target < share) break;
   }
   const Lobe& lobe = bsdf.lobes[chosen];
+  const ShadingFrame& frame = bsdf.frameOf(lobe);
+  const Vec3f o = local.of(lobe);
   const float remapped = std::clamp(target / share, 0.f, 0x1.fffffep-1f);
 
   BsdfSample result;
@@ -159,7 +188,7 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f 
   if (isDelta(lobe)) {
     const auto event = deltaEvent(lobe, o);
     if (!event) return std::nullopt;
-    result.wi = normalize(bsdf.frame.toWorld(event->wi));
+    result.wi = normalize(frame.toWorld(event->wi));
     result.delta = true;
     result.transmission = isTransmission(lobe);
     result.eta = event->eta;
@@ -169,10 +198,10 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f 
       result.wi = -wo;
       return result;
     }
-    if (!agrees(bsdf, result.wi, event->wi.z)) return std::nullopt;
+    if (!agrees(bsdf, frame, result.wi, event->wi.z)) return std::nullopt;
     if (transport == Transport::importance)
       result.weight *= importanceFactor(bsdf, lobe, wo, result.wi);
-    result.weight *= bumpShadow(bsdf.baseNormal, bsdf.bumpAlpha2,
+    result.weight *= bumpShadow(bsdf.baseNormal, frame.bumpAlpha2,
                                 transport == Transport::radiance ? result.wi : wo);
     if (maxComponent(result.weight) <= 0) return std::nullopt;
     return result;
@@ -181,16 +210,26 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f 
   const auto i =
       pair ? sampleInterface(lobe, bsdf.lobes[chosen + 1], o, remapped, u) : sampleLobe(lobe, o, u);
   if (!i) return std::nullopt;
-  result.wi = bsdf.frame.toWorld(*i);
-  if (!agrees(bsdf, result.wi, i->z)) return std::nullopt;
-  result.pdf = mixturePdf(bsdf, o, *i, set) / total;
+  result.wi = frame.toWorld(*i);
+  if (!agrees(bsdf, frame, result.wi, i->z)) return std::nullopt;
+  Local localI(bsdf, result.wi);
+  localI.frames[lobe.frame] = *i;
+  const FrameBits frames = agreeing(bsdf, result.wi, localI);
+  result.pdf = mixturePdf(bsdf, local, localI, frames, set) / total;
   if (!(result.pdf > 0) || !std::isfinite(result.pdf)) return std::nullopt;
   result.transmission = i->z * o.z < 0;
   if (result.transmission && (pair || lobe.type == LobeType::microfacetTransmission))
     result.eta = relativeEta(lobe, o.z < 0);
-  result.weight = evaluateLocal(bsdf, wo, result.wi, o, *i, set, transport) / result.pdf;
+  result.weight =
+      evaluateLocal(bsdf, wo, result.wi, local, localI, frames, set, transport) / result.pdf;
   if (!(maxComponent(result.weight) > 0)) return std::nullopt;
   return result;
+}
+
+float arrivingShare(const Bsdf& bsdf, const ShadingFrame& frame, Vec3f wi) {
+  const float cosShading = dot(wi, frame.n), cosGeometric = dot(wi, bsdf.ng);
+  if (!(cosShading * cosGeometric > 0)) return 0;
+  return cosShading / cosGeometric * bumpShadow(bsdf.baseNormal, frame.bumpAlpha2, wi);
 }
 
 bool hasLobes(const Bsdf& bsdf, LobeSet set) {
@@ -206,10 +245,11 @@ bool onlyDelta(const Bsdf& bsdf) {
 }
 
 Rgb albedo(const Bsdf& bsdf, Vec3f wo, LobeSet set) {
-  const float cosine = dot(wo, bsdf.frame.n);
   Rgb sum{};
-  for (int i = 0; i < bsdf.lobeCount; ++i)
-    if (inSet(bsdf.lobes[i], set)) sum += lobeAlbedo(bsdf.lobes[i], cosine);
+  for (int i = 0; i < bsdf.lobeCount; ++i) {
+    const Lobe& lobe = bsdf.lobes[i];
+    if (inSet(lobe, set)) sum += lobeAlbedo(lobe, dot(wo, bsdf.frameOf(lobe).n));
+  }
   return sum;
 }
 

@@ -34,12 +34,17 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f 
                                  Transport transport = Transport::radiance);
 // Share of the light from direction w (leaving the surface) that reaches a bump- or normal-mapped
 // surface: the microfacet shadowing function of Conty Estevez, Lecocq and Stein 2019 [Estevez19],
-// which softens the terminator. alpha2: Bsdf::bumpAlpha2. evaluate() and sample() contain it.
+// which softens the terminator. alpha2: ShadingFrame::bumpAlpha2. evaluate() and sample() contain
+// it.
 inline float bumpShadow(Vec3f baseNormal, float alpha2, Vec3f w) {
   if (alpha2 == 0) return 1;
   const float c2 = sqr(dot(w, baseNormal));
   return c2 > 0 ? 2 / (1 + std::sqrt(1 + alpha2 * (1 - c2) / c2)) : 0.f;
 }
+// Share of the power arriving from wi that lobes in this frame scatter, as seen from the eye
+// [Veach97 eq. 5.18]: |cos| to the shading normal over that to the geometric one, with the
+// shadowing by bumps; 0 where the two normals disagree about the side.
+float arrivingShare(const Bsdf& bsdf, const ShadingFrame& frame, Vec3f wi);
 bool hasLobes(const Bsdf& bsdf, LobeSet set);
 bool onlyDelta(const Bsdf& bsdf);
 // Hemispherical reflectance plus transmittance for light towards wo, estimated (tables and fits;

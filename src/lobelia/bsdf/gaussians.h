@@ -27,7 +27,8 @@ struct LobeExpansion {
 
 // The rough lobes of the BSDF for light that arrives from direction wi (leaving the surface), as a
 // function of the outgoing direction. The energy of every Gaussian above the horizon is scaled to
-// the lobe's directional albedo. `gaussiansPerLobe`: upper limit per lobe, 1 for the paper's form.
+// the lobe's directional albedo times arrivingShare() (bsdf/bsdf.h) of its frame.
+// `gaussiansPerLobe`: upper limit per lobe, 1 for the paper's form.
 LobeExpansion expand(const Bsdf& bsdf, Vec3f wi, int gaussiansPerLobe);
 
 }  // namespace lobelia

@@ -1,6 +1,6 @@
-// A BSDF as a value: a short list of lobes in one shading frame. Made per hit from a material and
-// its textures (scene/shading.h); evaluated, sampled (bsdf/bsdf.h) and turned into spherical
-// Gaussians (bsdf/gaussians.h) without knowing where it came from.
+// A BSDF as a value: a short list of lobes, each in one of a few shading frames. Made per hit from
+// a material and its textures (scene/shading.h); evaluated, sampled (bsdf/bsdf.h) and turned into
+// spherical Gaussians (bsdf/gaussians.h) without knowing where it came from.
 //
 // Directions leave the surface. wo points to where the path came from (the eye for eye paths), wi
 // to where it goes. All values include the cosine: evaluate() is f(wo, wi) |cos(wi, n)|.
@@ -61,6 +61,7 @@ struct Lobe {
   bool sharp = false;      // sharper than the specular limit: extends paths, is never a receiver
   bool twoSided = false;   // acts alike from both sides (the frame is flipped to wo's side)
   bool interface = false;  // boundary of two media: acts from both sides, 1/eta from behind
+  uint8_t frame = 0;       // index into Bsdf::frames
   float alphaX = 0, alphaY = 0;  // roughness along s and t; Phong: the exponent in alphaX
   Rgb weight{1.f};               // multiplies everything
   Rgb eta{1.f}, k{};             // see Fresnel
@@ -76,22 +77,44 @@ struct Lobe {
 inline constexpr int kTransmittanceSize = 64;
 inline constexpr uint8_t kInterfacePair = 1, kCoated = 2;  // bits of Lobe::variant of microfacets
 
-inline constexpr int kMaxLobes = 8;
-struct Bsdf {
-  Frame frame;        // shading frame, n on the outside of the surface (not flipped to wo)
-  Vec3f ng{0, 0, 1};  // geometric normal, on the same side as frame.n's surface outside
-  // Shading normal before bump and normal maps; where the two disagree about the side of a
+// A frame that lobes lie in, n on the outside of the surface (not flipped to wo).
+struct ShadingFrame : Frame {
+  ShadingFrame() = default;
+  ShadingFrame(const Frame& frame) : Frame(frame) {}
+  // Turned by a bump or normal map: where n and Bsdf::baseNormal disagree about the side of a
   // direction there is no reflection.
-  Vec3f baseNormal{0, 0, 1};
   bool perturbed = false;
   // Shadowing by the bumps that a perturbed normal stands for: squared roughness of the terrain
   // [Estevez19], 0 where nothing is perturbed.
   float bumpAlpha2 = 0;
+  bool operator==(const ShadingFrame& o) const {
+    return s == o.s && t == o.t && n == o.n && perturbed == o.perturbed;
+  }
+};
+
+inline constexpr int kMaxLobes = 8, kMaxFrames = 4;
+struct Bsdf {
+  // The first is the surface's for whoever wants one (AOVs). More where coats and the branches of
+  // blends have normals of their own.
+  ShadingFrame frames[kMaxFrames];
+  int frameCount = 1;
+  Vec3f ng{0, 0, 1};          // geometric normal, on the same side as the frames' outside
+  Vec3f baseNormal{0, 0, 1};  // shading normal before bump and normal maps
   int lobeCount = 0;
   Lobe lobes[kMaxLobes];
   void add(const Lobe& lobe) {
     if (lobeCount < kMaxLobes) lobes[lobeCount++] = lobe;
   }
+  // Index of an equal frame or of a new one; of the first where there is no room (validate() says
+  // so).
+  uint8_t addFrame(const ShadingFrame& frame) {
+    for (int f = 0; f < frameCount; ++f)
+      if (frames[f] == frame) return static_cast<uint8_t>(f);
+    if (frameCount == kMaxFrames) return 0;
+    frames[frameCount] = frame;
+    return static_cast<uint8_t>(frameCount++);
+  }
+  const ShadingFrame& frameOf(const Lobe& lobe) const { return frames[lobe.frame]; }
 };
 
 }  // namespace lobelia

@@ -12,6 +12,9 @@
 // of 2 either way, since the axis of a broad lobe may lie at the horizon.
 #include "lobelia/lights/particle_walk.h"
 
+#include <algorithm>
+#include <span>
+
 #include "lobelia/lobes/spherical_gaussian.h"
 
 namespace lobelia {
@@ -94,20 +97,18 @@ void ParticleWalk::leaveOnEmitter(const EmittedRay& emitted, Rgb power, Particle
 
 void ParticleWalk::leaveLights(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power,
                                int depth, float u, ParticleBatch* out) const {
-  const float cosShading = dot(wi, bsdf.frame.n), cosGeometric = dot(wi, bsdf.ng);
-  // Light that arrives from one side by the shading normal and from the other in truth.
-  if (!(cosShading * cosGeometric > 0)) return;
-  const Rgb arriving =
-      power * (cosShading / cosGeometric * bumpShadow(bsdf.baseNormal, bsdf.bumpAlpha2, wi));
+  // Light that arrives from one side by the shading normals and from the other in truth.
+  const std::span frames(bsdf.frames, static_cast<size_t>(bsdf.frameCount));
+  if (std::ranges::none_of(frames, [&](auto& f) { return arrivingShare(bsdf, f, wi) > 0; })) return;
   const LobeExpansion lobes = expand(bsdf, wi, settings_.gaussiansPerLobe);
-  const Vec3f side = cosGeometric > 0 ? bsdf.ng : -bsdf.ng;
+  const Vec3f side = dot(wi, bsdf.ng) > 0 ? bsdf.ng : -bsdf.ng;
   const size_t before = out->diffuse.size() + out->glossy.size();
   if (maxComponent(lobes.diffuse) > 0)
-    addDiffuse(offsetOrigin(at, side), side, arriving * lobes.diffuse * kInvPi, depth, out);
+    addDiffuse(offsetOrigin(at, side), side, power * lobes.diffuse * kInvPi, depth, out);
   if (maxComponent(lobes.diffuseTransmitted) > 0)
-    addDiffuse(offsetOrigin(at, -side), -side, arriving * lobes.diffuseTransmitted * kInvPi, depth,
+    addDiffuse(offsetOrigin(at, -side), -side, power * lobes.diffuseTransmitted * kInvPi, depth,
                out);
-  if (settings_.glossy) leaveGlossy(at, bsdf, lobes, arriving, depth, u, out);
+  if (settings_.glossy) leaveGlossy(at, bsdf, lobes, power, depth, u, out);
   if (out->diffuse.size() + out->glossy.size() == before) ++out->dropped;
 }
 

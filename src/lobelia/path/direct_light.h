@@ -15,13 +15,19 @@ struct LightQuery {
   Vec3f n;          // for EmitterSampler: the side that light counts from, zero for both
 };
 
-// The shading normal on the side of wo when the lobes only reflect; zero when they transmit.
+// The shading normal on the side of wo when the lobes only reflect; zero when they transmit. Of
+// several frames the normal before bumps, which none of them receives light from behind; zero where
+// they disagree about the side of wo.
 inline Vec3f lightSide(const Bsdf& bsdf, Vec3f wo) {
   for (int i = 0; i < bsdf.lobeCount; ++i) {
     const LobeType type = bsdf.lobes[i].type;
     if (isTransmission(type) && !isDelta(type)) return {};
   }
-  return dot(bsdf.frame.n, wo) < 0 ? -bsdf.frame.n : bsdf.frame.n;
+  const Vec3f n = bsdf.frameCount > 1 ? bsdf.baseNormal : bsdf.frames[0].n;
+  const bool behind = dot(n, wo) < 0;
+  for (int f = 0; f < bsdf.frameCount; ++f)
+    if ((dot(bsdf.frames[f].n, wo) < 0) != behind) return {};
+  return behind ? -n : n;
 }
 inline LightQuery lightQuery(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wo) {
   return {at.p, at.ng, at.error, lightSide(bsdf, wo)};

@@ -191,7 +191,7 @@ bool PathWalk<Rays>::advance(PathState& path, Shadows& shadows) const {
   const Bsdf bsdf = makeBsdf(emitters_.scene(), at, wo, settings_.specularLimit);
   if (path.depth == 1) {
     path.result.albedo = albedo(bsdf, wo);
-    path.result.normal = bsdf.frame.n;
+    path.result.normal = bsdf.frames[0].n;
     path.result.depth = path.hit->t;
     if (last) return false;
   }

@@ -107,7 +107,7 @@ void EyeWalk::step(EyeSegment segment, State* state) const {
   if (first) {
     state->result.hit = true;
     state->result.albedo = albedo(v.bsdf, v.wo);
-    state->result.normal = v.bsdf.frame.n;
+    state->result.normal = v.bsdf.frames[0].n;
     state->result.depth = hit->t;
     if (!mayEnd(v.depth + 1)) return;
   }
@@ -183,20 +183,28 @@ void EyeWalk::record(const EyeSegment& segment, const Vertex& v, State* state) c
   ReceiverPoint r;
   r.p = v.at.p;
   r.ng = v.bsdf.ng;
-  r.frame = v.bsdf.frame;
   r.baseNormal = v.bsdf.baseNormal;
-  r.bumpAlpha2 = v.bsdf.bumpAlpha2;
   r.wo = v.wo;
   r.weight = segment.throughput / survival;
   r.error = v.at.error;
   r.pixel = state->pixel;
-  r.firstLobe = static_cast<uint32_t>(state->receivers->lobes.size());
   r.depth = static_cast<uint8_t>(v.depth);
   r.primary = segment.kind == EyeSegment::Kind::eye;
-  for (int i = 0; i < v.bsdf.lobeCount; ++i)
-    if (!v.bsdf.lobes[i].sharp) state->receivers->lobes.push_back(v.bsdf.lobes[i]);
-  r.lobeCount = static_cast<uint8_t>(state->receivers->lobes.size() - r.firstLobe);
-  state->receivers->points.push_back(r);
+  // One for the lobes of every frame.
+  std::vector<Lobe>& lobes = state->receivers->lobes;
+  for (int f = 0; f < v.bsdf.frameCount; ++f) {
+    r.frame = v.bsdf.frames[f];
+    r.bumpAlpha2 = v.bsdf.frames[f].bumpAlpha2;
+    r.firstLobe = static_cast<uint32_t>(lobes.size());
+    for (int i = 0; i < v.bsdf.lobeCount; ++i) {
+      const Lobe& lobe = v.bsdf.lobes[i];
+      if (lobe.sharp || lobe.frame != f) continue;
+      lobes.push_back(lobe);
+      lobes.back().frame = 0;
+    }
+    r.lobeCount = static_cast<uint8_t>(lobes.size() - r.firstLobe);
+    if (r.lobeCount > 0) state->receivers->points.push_back(r);
+  }
 }
 
 void EyeWalk::extend(const EyeSegment& segment, const Vertex& v, State* state) const {

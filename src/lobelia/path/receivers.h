@@ -9,12 +9,12 @@
 
 namespace lobelia {
 
-// A point that gathers. Its rough lobes are lobes[firstLobe, firstLobe + lobeCount).
+// A point that gathers. A surface whose lobes lie in several frames leaves one in each. Its rough lobes are lobes[firstLobe, firstLobe + lobeCount).
 struct ReceiverPoint {
   Vec3f p;
   Vec3f ng;          // geometric normal, outside
   Frame frame;       // shading frame
-  Vec3f baseNormal;  // these two as in Bsdf; the normal is read where bumpAlpha2 > 0
+  Vec3f baseNormal;  // these two as in Bsdf and its frame; the normal is read where bumpAlpha2 > 0
   float bumpAlpha2 = 0;
   Vec3f wo;            // towards the eye
   Rgb weight;          // factor to the pixel's value: throughput / samples

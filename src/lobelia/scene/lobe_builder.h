@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lobelia/scene/material_lobes.h"
+#include "lobelia/scene/shading.h"
 
 namespace lobelia {
 
@@ -11,15 +12,19 @@ inline constexpr float kMinAlpha = 1e-4f;  // as Mitsuba
 
 inline float mean(Rgb c) { return (c.x + c.y + c.z) / 3; }
 
-// See addLobes().
+// One material at one point: its lobes are added to `bsdf`.
 struct Builder {
   const Scene& scene;
   const Material& material;
   const TextureContext& at;
-  float cosThetaO;
-  float weight;
-  bool twoSided;
+  uint8_t frame;    // of its lobes, in bsdf.frames
+  float cosThetaO;  // of wo in that frame: sampling shares are for it
+  float weight;     // scales everything
+  bool twoSided;    // inside a two-sided material
   Bsdf& bsdf;
+  // A clearcoat's frame with its cosine, where it has one of its own.
+  const ShadingFrame* coatFrame = nullptr;
+  float coatCosThetaO = 0;
 
   Rgb color(const ColorParam& param) const {
     return max(evaluate(scene, param, at), Rgb(0.f)) * weight;
@@ -33,6 +38,7 @@ struct Builder {
   Lobe lobe(LobeType type) const {
     Lobe l;
     l.type = type;
+    l.frame = frame;
     l.twoSided = twoSided;
     return l;
   }

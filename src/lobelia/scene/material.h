@@ -26,7 +26,7 @@ enum class MaterialType : uint8_t {
 };
 
 // A lobe of captured reflectance: amplitude exp(sharpness (h.n - 1)) over the half vector h [Wang09],
-// times the shadowing and Fresnel terms that Material::fresnel and bsdf/ say.
+// times the shadowing and Fresnel terms of bsdf/captured.h (Material::ior; 1: no Fresnel term).
 struct CapturedLobe {
   ColorParam amplitude = Rgb(0.f);
   FloatParam sharpness = 50.f;
@@ -61,7 +61,7 @@ struct Material {
   ColorParam sheenColor = Rgb(0.f);
   FloatParam sheenRoughness = 0.f;
   FloatParam clearcoatRoughness = 0.f;
-  TextureHandle clearcoatNormal;
+  TextureHandle clearcoatNormal;         // none: the surface's normals, whatever wraps this
   FloatParam anisotropicRotation = 0.f;  // radians, counter-clockwise
   TextureHandle anisotropicDirection;    // glTF's texture: r, g: direction in [0,1], b: strength
   bool thin = false;                     // transmission without refraction (no volume)

@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "lobelia/bsdf/captured.h"
-#include "lobelia/scene/material_lobes.h"
+#include "lobelia/scene/lobe_builder.h"
 
 namespace lobelia {
 namespace {
-
-float mean(Rgb c) { return (c.x + c.y + c.z) / 3; }
 
 // Of the weight that is reflected, about: Fresnel by Schlick's formula.
 float share(const Lobe& part, float cosine) {
@@ -21,9 +19,9 @@ float share(const Lobe& part, float cosine) {
 
 }  // namespace
 
-void addCapturedLobes(const Scene& scene, const Material& material, const TextureContext& at,
-                      float cosThetaO, float weight, bool twoSided, Bsdf& bsdf) {
-  const auto color = [&](const ColorParam& p) { return max(evaluate(scene, p, at), Rgb(0.f)); };
+void addCapturedLobes(const Builder& b) {
+  const Material& material = b.material;
+  const auto color = [&](const ColorParam& p) { return max(evaluate(b.scene, p, b.at), Rgb(0.f)); };
   Lobe parts[kMaxLobes];
   int count = 0;
   const Rgb diffuse = color(material.diffuse);
@@ -31,18 +29,19 @@ void addCapturedLobes(const Scene& scene, const Material& material, const Textur
   Rgb weights{};
   for (const CapturedLobe& lobe : material.capturedLobes) {
     if (count == kMaxLobes) break;  // validate() says so
-    const float sharpness = evaluate(scene, lobe.sharpness, at);
+    const float sharpness = evaluate(b.scene, lobe.sharpness, b.at);
     parts[count] = capturedLobe(color(lobe.amplitude), sharpness, material.ior);
     weights += parts[count++].weight;
   }
-  const float scale = weight * capturedScale(diffuse, weights, material.ior);
+  const float scale = b.weight * capturedScale(diffuse, weights, material.ior);
   for (int i = 0; i < count; ++i) {
     Lobe& part = parts[i];
     part.weight *= scale;
-    part.twoSided = twoSided;
-    part.selection = mean(part.weight) * share(part, std::abs(cosThetaO));
+    part.frame = b.frame;
+    part.twoSided = b.twoSided;
+    part.selection = mean(part.weight) * share(part, std::abs(b.cosThetaO));
     // Black lobes are left out: nothing would ever come of them.
-    if (part.selection > 0) bsdf.add(part);
+    if (part.selection > 0) b.bsdf.add(part);
   }
 }
 

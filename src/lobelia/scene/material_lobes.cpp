@@ -154,10 +154,8 @@ void addWard(const Builder& b) {
 
 }  // namespace
 
-void addLobes(const Scene& scene, const Material& material, const TextureContext& at,
-              float cosThetaO, float weight, bool twoSided, Bsdf& bsdf) {
-  const Builder b{scene, material, at, cosThetaO, weight, twoSided, bsdf};
-  switch (material.type) {
+void addLobes(const Builder& b) {
+  switch (b.material.type) {
     case MaterialType::diffuse:
       return addDiffuse(b);
     case MaterialType::conductor:
@@ -175,9 +173,9 @@ void addLobes(const Scene& scene, const Material& material, const TextureContext
     case MaterialType::roughPlastic:
       return addRoughPlastic(b);
     case MaterialType::principled:
-      return addPrincipledLobes(scene, material, at, weight, twoSided, bsdf);
+      return addPrincipledLobes(b);
     case MaterialType::sphericalGaussians:
-      return addCapturedLobes(scene, material, at, cosThetaO, weight, twoSided, bsdf);
+      return addCapturedLobes(b);
     case MaterialType::phong:
       return addPhong(b);
     case MaterialType::ward:
@@ -189,7 +187,7 @@ void addLobes(const Scene& scene, const Material& material, const TextureContext
     case MaterialType::coatedConductor:
       return addCoatedConductorLobes(b);
     case MaterialType::null:
-      return b.addStraight(Rgb(weight));
+      return b.addStraight(Rgb(b.weight));
     case MaterialType::twoSided:
     case MaterialType::mask:
     case MaterialType::blend:

@@ -15,11 +15,14 @@
 // layers on the way in and on the way out (bsdf/layers.h). For these tables textured roughnesses
 // are rounded to 1/128 and textured weights to 1/32. Strength and colour of KHR_materials_specular
 // do not change the transmitting share of a volume, whose Fresnel factor follows from its index.
-// The clearcoat shares the frame of the base: clearcoatNormal is not read (validate() warns). A
-// blend of two anisotropic materials has the direction of the later one. Visibility is the
-// separable Smith term. Sheen has an alpha of at least 0.07: below, Charlie's distribution reflects
-// more than it gets.
+// The clearcoat has its own normals or the surface's, whatever map the base has, as
+// KHR_materials_clearcoat says; what it leaves to the base is looked up at cosines to the base's
+// normal, which may return a few percent too much at grazing angles where the two normals differ
+// much. Visibility is the separable Smith term. Sheen has an alpha of at least 0.07: below,
+// Charlie's distribution reflects more than it gets.
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "lobelia/bsdf/albedo.h"
 #include "lobelia/bsdf/layers.h"
@@ -67,7 +70,8 @@ float alphaForTable(const Builder& b, const FloatParam& param) {
 }
 
 // Turns the tangents towards the anisotropy's direction and returns its strength.
-float turnTangents(const Builder& b) {
+float turnTangents(Builder* builder) {
+  Builder& b = *builder;
   const Material& m = b.material;
   float strength = b.unit(m.anisotropic);
   if (!(strength > 0)) return 0;
@@ -83,9 +87,16 @@ float turnTangents(const Builder& b) {
     }
     strength *= std::clamp(texel.z, 0.f, 1.f);
   }
-  const Frame f = b.bsdf.frame;
-  b.bsdf.frame.s = f.s * x + f.t * y;
-  b.bsdf.frame.t = f.t * x - f.s * y;
+  ShadingFrame turned = b.bsdf.frames[b.frame];
+  const Vec3f s = turned.s, t = turned.t;
+  turned.s = s * x + t * y;
+  turned.t = t * x - s * y;
+  // A frame that nothing lies in yet serves no one else.
+  const std::span lobes(b.bsdf.lobes, static_cast<size_t>(b.bsdf.lobeCount));
+  if (std::ranges::any_of(lobes, [&](const Lobe& l) { return l.frame == b.frame; }))
+    b.frame = b.bsdf.addFrame(turned);
+  else
+    b.bsdf.frames[b.frame] = turned;
   return strength;
 }
 
@@ -110,10 +121,15 @@ void addByAlbedo(const Builder& b, const Lobe& lobe) {
   b.add(lobe, lobe.weight, mean(lobeAlbedo(lobe, b.cosThetaO)));
 }
 
-void addCoat(const Builder& b, Layers* layers) {
-  const Material& m = b.material;
+void addCoat(const Builder& base, Layers* layers) {
+  const Material& m = base.material;
+  Builder b = base;
   const float strength = b.unit(m.clearcoat);
   if (!(strength > 0)) return;
+  if (b.coatFrame) {
+    b.frame = b.bsdf.addFrame(*b.coatFrame);
+    b.cosThetaO = b.twoSided ? std::abs(b.coatCosThetaO) : b.coatCosThetaO;
+  }
   Lobe coat = b.lobe(LobeType::microfacetReflection);
   coat.fresnel = Fresnel::schlick;
   coat.eta = Rgb(kCoatReflectance);
@@ -220,7 +236,7 @@ void addMetallicRoughnessLobes(const Builder& given) {
   const bool thin = b.material.thin || std::abs(b.material.ior - 1) < 1e-4f || b.material.ior <= 0;
   if (v.transmission > 0 && thin) b.twoSided = true;
   if (b.twoSided) b.cosThetaO = std::abs(b.cosThetaO);
-  const float strength = turnTangents(b);
+  const float strength = turnTangents(&b);
 
   Layers layers;
   addCoat(b, &layers);

@@ -4,26 +4,20 @@
 // (1 - transmission), specular 1, clearcoat a quarter.
 #include <cmath>
 
-#include "lobelia/scene/material_lobes.h"
+#include "lobelia/scene/lobe_builder.h"
 
 namespace lobelia {
-namespace {
 
-float unitParam(const Scene& scene, const FloatParam& param, const TextureContext& at) {
-  return std::clamp(evaluate(scene, param, at), 0.f, 1.f);
-}
-
-}  // namespace
-
-void addPrincipledLobes(const Scene& scene, const Material& material, const TextureContext& at,
-                        float weight, bool twoSided, Bsdf& bsdf) {
-  const Rgb base = max(evaluate(scene, material.diffuse, at), Rgb(0.f));
-  const float roughness = unitParam(scene, material.roughness, at);
-  const float metallic = unitParam(scene, material.metallic, at);
-  const float specTrans = unitParam(scene, material.specTrans, at);
-  const float specTint = unitParam(scene, material.specTint, at);
-  const float sheen = std::max(evaluate(scene, material.sheen, at), 0.f);
-  const float clearcoat = std::max(evaluate(scene, material.clearcoat, at), 0.f);
+void addPrincipledLobes(const Builder& b) {
+  const Material& material = b.material;
+  const float weight = b.weight;
+  const Rgb base = max(evaluate(b.scene, material.diffuse, b.at), Rgb(0.f));
+  const float roughness = b.unit(material.roughness);
+  const float metallic = b.unit(material.metallic);
+  const float specTrans = b.unit(material.specTrans);
+  const float specTint = b.unit(material.specTint);
+  const float sheen = std::max(evaluate(b.scene, material.sheen, b.at), 0.f);
+  const float clearcoat = std::max(evaluate(b.scene, material.clearcoat, b.at), 0.f);
   const float diffuseShare = (1 - metallic) * (1 - specTrans);
   const float transmissionShare = (1 - metallic) * specTrans;
   const float lum = luminance(base);
@@ -32,24 +26,19 @@ void addPrincipledLobes(const Scene& scene, const Material& material, const Text
   const float eta = specTrans > 0 && material.ior == 1 ? 1.001f : material.ior;
 
   if (diffuseShare > 0) {
-    Lobe diffuse;
-    diffuse.type = LobeType::principledDiffuse;
-    diffuse.twoSided = twoSided;
+    Lobe diffuse = b.lobe(LobeType::principledDiffuse);
     diffuse.weight = Rgb(weight);
     diffuse.k = base * diffuseShare;
-    diffuse.parameters = {roughness, unitParam(scene, material.flatness, at),
-                          sheen * (1 - metallic)};
-    diffuse.tint = lerp(Rgb(1.f), tint, unitParam(scene, material.sheenTint, at));
+    diffuse.parameters = {roughness, b.unit(material.flatness), sheen * (1 - metallic)};
+    diffuse.tint = lerp(Rgb(1.f), tint, b.unit(material.sheenTint));
     diffuse.selection = weight * diffuseShare;
-    bsdf.add(diffuse);
+    b.bsdf.add(diffuse);
   }
 
-  const float aspect = std::sqrt(1 - 0.9f * unitParam(scene, material.anisotropic, at));
-  Lobe specular;
-  specular.type = LobeType::microfacetReflection;
+  const float aspect = std::sqrt(1 - 0.9f * b.unit(material.anisotropic));
+  Lobe specular = b.lobe(LobeType::microfacetReflection);
   specular.distribution = Distribution::ggx;
   specular.fresnel = Fresnel::principled;
-  specular.twoSided = twoSided;
   specular.alphaX = std::max(0.001f, roughness * roughness / aspect);
   specular.alphaY = std::max(0.001f, roughness * roughness * aspect);
   specular.weight = Rgb(weight);
@@ -68,25 +57,22 @@ void addPrincipledLobes(const Scene& scene, const Material& material, const Text
         Rgb(std::sqrt(base.x), std::sqrt(base.y), std::sqrt(base.z)) * (transmissionShare * weight);
     transmission.parameters = {0, 0, transmissionShare};
     transmission.tint = {};
-    bsdf.add(specular);
-    bsdf.add(transmission);
+    b.bsdf.add(specular);
+    b.bsdf.add(transmission);
   } else {
-    bsdf.add(specular);
+    b.bsdf.add(specular);
   }
 
   if (clearcoat > 0) {
-    Lobe coat;
-    coat.type = LobeType::microfacetReflection;
+    Lobe coat = b.lobe(LobeType::microfacetReflection);
     coat.distribution = Distribution::gtr1;
     coat.fresnel = Fresnel::principled;  // plain Schlick from 0.04 to 1
-    coat.twoSided = twoSided;
-    coat.alphaX = coat.alphaY =
-        0.1f + (0.001f - 0.1f) * unitParam(scene, material.clearcoatGloss, at);
+    coat.alphaX = coat.alphaY = 0.1f + (0.001f - 0.1f) * b.unit(material.clearcoatGloss);
     coat.weight = Rgb(0.25f * clearcoat * weight);
     coat.eta = Rgb(eta);
     coat.tint = Rgb(0.04f);
     coat.selection = 0.25f * clearcoat * weight;
-    bsdf.add(coat);
+    b.bsdf.add(coat);
   }
 }
 

@@ -1,4 +1,5 @@
-// What a material may ask of one point and a Bsdf cannot hold: too many lobes, wrappers too deep.
+// What a material may ask of one point and a Bsdf cannot hold: too many lobes or frames, wrappers
+// too deep.
 // makeBsdf() leaves out what does not fit; here it is said.
 #include <fmt/format.h>
 
@@ -25,9 +26,16 @@ int principledLobes(const Material& m) {
   return 1 + (diffuse ? 1 : 0) + (transmits ? 1 : 0) + (mayExceed(m.clearcoat, 0) ? 1 : 0);
 }
 
-// The most that a material may need at any point: lobes, and wrappers inside each other.
+// Frames that glTF's material adds to those around it: a turned and a coat's.
+int metallicRoughnessFrames(const Material& m) {
+  return (mayExceed(m.anisotropic, 0) ? 1 : 0) +
+         (mayExceed(m.clearcoat, 0) && m.clearcoatNormal.valid() ? 1 : 0);
+}
+
+// The most that a material may need at any point: lobes, wrappers inside each other, and frames
+// beside the surface's own.
 struct Need {
-  int lobes = 0, depth = 0;
+  int lobes = 0, depth = 0, frames = 0;
 };
 
 // Counts each material once: blends may share what they wrap. The tree has no cycles, but may be so
@@ -63,26 +71,28 @@ class Needs {
       case MaterialType::coatedConductor:
         return {2, 0};
       case MaterialType::metallicRoughness:
-        return {metallicRoughnessLobes(m), 0};
+        return {metallicRoughnessLobes(m), 0, metallicRoughnessFrames(m)};
       case MaterialType::principled:
         return {principledLobes(m), 0};
       case MaterialType::sphericalGaussians:
         return {1 + static_cast<int>(std::min<size_t>(m.capturedLobes.size(), 1000)), 0};
       case MaterialType::twoSided: {
         const Need a = of(m.a, level), b = of(m.b, level);
-        return {std::max(a.lobes, b.lobes), 1 + std::max(a.depth, b.depth)};
+        return {std::max(a.lobes, b.lobes), 1 + std::max(a.depth, b.depth),
+                std::max(a.frames, b.frames)};
       }
       case MaterialType::blend: {
         const Need a = mayBeBelow(m.weight, 1) ? of(m.a, level) : Need{};
         const Need b = mayExceed(m.weight, 0) ? of(m.b, level) : Need{};
         // No more than matters, so that shared branches do not overflow.
-        return {std::min(a.lobes + b.lobes, 1000), 1 + std::max(a.depth, b.depth)};
+        return {std::min(a.lobes + b.lobes, 1000), 1 + std::max(a.depth, b.depth),
+                std::min(a.frames + b.frames, 1000)};
       }
       case MaterialType::mask:
       case MaterialType::bump:
       case MaterialType::normalMap: {
         const Need a = of(m.a, level);
-        return {a.lobes, 1 + a.depth};
+        return {a.lobes, 1 + a.depth, a.frames + (m.type == MaterialType::mask ? 0 : 1)};
       }
     }
     return {};
@@ -107,6 +117,12 @@ void checkLobes(const Scene& scene, Findings& findings) {
       findings.warning(
           fmt::format("{}: blends up to {} lobes at a point; {} are kept, the rest is lost", who,
                       need.lobes, kMaxLobes));
+    }
+    if (need.frames >= kMaxFrames) {
+      findings.warning(fmt::format(
+          "{}: may need {} different normals and tangents at a point; of more than {} the last "
+          "take the first's",
+          who, need.frames + 1, kMaxFrames));
     }
     if (need.depth > kMaxNesting) {
       findings.warning(fmt::format("{}: {} materials are nested; what is deeper than {} is lost",

@@ -275,11 +275,6 @@ void checkValues(const Scene& scene, const Material& m, const std::string& who,
   if (!isFinite(m.absorption) || minComponent(m.absorption) < 0) {
     findings.error(who + ": its absorption must be finite and 0 or more");
   }
-  if (m.clearcoatNormal.valid()) {
-    findings.warning(who +
-                     ": the normal map of its clearcoat is left out; the coat has the "
-                     "normals of the base");
-  }
   for (const FloatParam* alpha : {&m.alphaU, &m.alphaV, &m.coatAlphaU, &m.coatAlphaV}) {
     if (!alpha->texture.valid() && !(alpha->value >= 0 && std::isfinite(alpha->value))) {
       findings.error(
