@@ -1,0 +1,151 @@
+// Renders that are killed and go on: same pixels; checkpoints that do not fit are refused.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "lobelia/io/image_io.h"
+#include "support/run_program.h"
+
+namespace lobelia {
+namespace {
+
+using test::ProgramResult;
+using test::runProgram;
+using test::TemporaryFolder;
+
+struct Method {
+  const char* name;
+  const char* options;
+};
+void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
+
+constexpr const char* kScene = "render cornell --detail 0.1 --quiet --checkpoint-interval 0.01 ";
+
+void expectSamePicture(const std::string& a, const std::string& b) {
+  const Film first = io::readFilm(a), second = io::readFilm(b);
+  ASSERT_EQ(first.layers.size(), second.layers.size());
+  for (const auto& [name, layer] : first.layers) {
+    ASSERT_TRUE(second.layers.contains(name)) << name;
+    const std::vector<float>& other = second.layers.at(name).values;
+    ASSERT_EQ(layer.values.size(), other.size()) << name;
+    EXPECT_EQ(std::memcmp(layer.values.data(), other.data(), other.size() * sizeof(float)), 0)
+        << "layer '" << name << "' differs";
+  }
+  EXPECT_EQ(first.alpha, second.alpha);
+}
+
+// Starts the program, sends a signal after some time; false when it had ended by itself.
+bool interrupted(const std::string& arguments, int signal, int milliseconds) {
+  const std::string command =
+      "exec " + std::string(LOBELIA_PROGRAM) + " " + arguments + " >/dev/null 2>&1";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+  kill(child, signal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status) || WEXITSTATUS(status) >= 128;
+}
+
+class Checkpoint : public testing::TestWithParam<Method> {};
+
+TEST_P(Checkpoint, KilledRendersEndAsIfNothingHadHappened) {
+  const TemporaryFolder folder;
+  const std::string options = std::string(kScene) + GetParam().options;
+  ASSERT_EQ(
+      runProgram(options + " -o " + (folder / "whole.exr") + " --stats " + (folder / "whole.json"))
+          .exitCode,
+      0);
+  const std::string resumed = options + " --resume " + (folder / "checkpoint") + " -o " +
+                              (folder / "cut.exr") + " --stats " + (folder / "cut.json");
+  for (const int milliseconds : {40, 90, 65, 120})
+    interrupted(resumed, milliseconds == 65 ? SIGINT : SIGKILL, milliseconds);
+  const ProgramResult last = runProgram(resumed);
+  ASSERT_EQ(last.exitCode, 0) << last.err;
+  expectSamePicture(folder / "cut.exr", folder / "whole.exr");
+  const auto counts = [&](const char* file) {
+    return nlohmann::json::parse(test::readText(folder / file))["counts"];
+  };
+  EXPECT_EQ(counts("cut.json"), counts("whole.json"));
+}
+
+TEST_P(Checkpoint, TimeLimitedRendersGoOn) {
+  const TemporaryFolder folder;
+  const std::string options = std::string(kScene) + GetParam().options;
+  ASSERT_EQ(runProgram(options + " -o " + (folder / "whole.exr")).exitCode, 0);
+  const std::string resumed =
+      options + " --resume " + (folder / "checkpoint") + " -o " + (folder / "cut.exr");
+  ASSERT_EQ(runProgram(resumed + " --time-limit 0.001").exitCode, 0);
+  ASSERT_TRUE(std::filesystem::exists(folder / "checkpoint"));
+  ASSERT_EQ(runProgram(resumed + " --threads 1").exitCode, 0);
+  expectSamePicture(folder / "cut.exr", folder / "whole.exr");
+  // What is finished is written again, without rendering.
+  std::filesystem::remove(folder / "cut.exr");
+  ASSERT_EQ(runProgram(resumed).exitCode, 0);
+  expectSamePicture(folder / "cut.exr", folder / "whole.exr");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods, Checkpoint,
+    testing::Values(Method{"path",
+                           "--lights path --size 64x48 --spp 48 --seed 3 "
+                           "--aov albedo,normal,depth,direct,indirect,variance"},
+                    Method{"light",
+                           "--lights light --size 64x48 --spp 64 "
+                           "--aov direct,indirect,variance"},
+                    Method{"glossy",
+                           "--size 48x40 --spp 12 --num-lights 600 "
+                           "--aov direct,indirect,specular,variance"},
+                    Method{"pixels",
+                           "--lights vpl --size 64x64 --pixels 500 --spp 8 "
+                           "--num-lights 500 --passes 2 --direct lights"}),
+    [](const auto& param) { return std::string(param.param.name); });
+
+TEST(CheckpointFile, OfAnotherRenderIsRefusedAndSaysWhy) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "checkpoint", out = " -o " + (folder / "a.exr");
+  const std::string made = std::string(kScene) + "--lights path --size 16x16 --spp 4 --seed 1";
+  ASSERT_EQ(runProgram(made + " --checkpoint " + file + out).exitCode, 0);
+  const auto expectRefused = [&](const std::string& arguments, const char* mentions) {
+    const ProgramResult r = runProgram(arguments + " --resume " + file + out);
+    EXPECT_EQ(r.exitCode, 3) << arguments << "\n" << r.err;
+    EXPECT_NE(r.err.find(mentions), std::string::npos) << arguments << "\nsaid: " << r.err;
+  };
+  const std::string base = std::string(kScene) + "--lights path ";
+  expectRefused(base + "--size 16x16 --spp 4 --seed 2", "--seed 1 (now 2)");
+  expectRefused(base + "--size 16x16 --spp 8 --seed 1", "--spp 4 (now 8)");
+  expectRefused(base + "--size 17x16 --spp 4 --seed 1", "--size 16x16 (now 17x16)");
+  expectRefused(made + " --component direct", "--component all (now direct)");
+  expectRefused(std::string(kScene) + "--size 16x16 --spp 4 --seed 1", "--lights path");
+  expectRefused("render cornell --detail 0.3 --quiet --lights path --size 16x16 --spp 4 --seed 1",
+                "another scene");
+  EXPECT_EQ(runProgram(made + " --threads 2 --resume " + file + out).exitCode, 0);
+
+  const std::string bytes = test::readText(file);
+  std::string damaged = bytes;
+  damaged[damaged.size() / 2] ^= 0x10;
+  test::writeText(file, damaged);
+  expectRefused(made, "checksum");
+  test::writeText(file, bytes.substr(0, bytes.size() / 2));
+  expectRefused(made, "truncated");
+  std::string newer = bytes;
+  newer[28] = 99;  // the version of the kind: after magic, layout version and kind
+  test::writeText(file, newer);
+  expectRefused(made, "version 99");
+  test::writeText(file, "not a checkpoint");
+  expectRefused(made, "not a Lobelia data file");
+  // --checkpoint starts afresh over whatever is there.
+  EXPECT_EQ(runProgram(made + " --checkpoint " + file + out).exitCode, 0);
+  EXPECT_EQ(runProgram(made + " --resume " + file + " --checkpoint " + file + out).exitCode, 2);
+}
+
+}  // namespace
+}  // namespace lobelia
