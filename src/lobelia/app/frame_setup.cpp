@@ -32,23 +32,6 @@ std::array<int, N> parseIntegers(const std::string& text, char separator, const 
   return out;
 }
 
-std::vector<std::string> requestedLayers(const RenderOptions& options) {
-  std::vector<std::string> out;
-  size_t begin = 0;
-  while (begin < options.aovs.size()) {
-    const size_t end = std::min(options.aovs.find(',', begin), options.aovs.size());
-    const std::string name = options.aovs.substr(begin, end - begin);
-    if (std::find(knownLayers().begin(), knownLayers().end(), name) == knownLayers().end()) {
-      throw UsageError(fmt::format("--aov '{}' is not known; there are {}{}", name,
-                                   fmt::join(knownLayers(), ", "),
-                                   suggestion(name, knownLayers())));
-    }
-    out.push_back(name);
-    begin = end + 1;
-  }
-  return out;
-}
-
 // Memory that the machine does not have is given all the same by most systems, and the program
 // killed without a word when it is used.
 void requireMemory(const Camera& camera, size_t channels) {
@@ -67,27 +50,64 @@ void requireMemory(const Camera& camera, size_t channels) {
 }  // namespace
 
 const std::vector<std::string>& knownLayers() {
-  static const std::vector<std::string> names{"albedo",   "normal",   "depth",   "direct",
-                                              "indirect", "specular", "variance"};
+  static const std::vector<std::string> names{"albedo",   "normal",   "depth",    "direct",
+                                              "indirect", "specular", "variance", "groups",
+                                              "types",    "cost"};
   return names;
 }
 
-Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
-  const Camera* chosen = options.camera.empty() ? &scene.cameras.front() : nullptr;
+std::vector<std::string> requestedLayers(const RenderOptions& options) {
+  std::vector<std::string> out;
+  size_t begin = 0;
+  while (begin < options.aovs.size()) {
+    const size_t end = std::min(options.aovs.find(',', begin), options.aovs.size());
+    const std::string name = options.aovs.substr(begin, end - begin);
+    if (std::find(knownLayers().begin(), knownLayers().end(), name) == knownLayers().end()) {
+      throw UsageError(fmt::format("--aov '{}' is not known; there are {}{}", name,
+                                   fmt::join(knownLayers(), ", "),
+                                   suggestion(name, knownLayers())));
+    }
+    out.push_back(name);
+    begin = end + 1;
+  }
+  return out;
+}
+
+namespace {
+
+// "" is the first.
+Camera findCamera(const Scene& scene, const std::string& wanted) {
+  if (wanted.empty()) return scene.cameras.front();
+  const Camera* found = nullptr;
   std::vector<std::string> names;
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     const Camera& camera = scene.cameras[i];
     names.push_back(camera.name.empty() ? std::to_string(i) : camera.name);
-    if (options.camera == camera.name || options.camera == std::to_string(i)) {
-      if (!options.camera.empty()) chosen = &camera;
+    if (wanted == camera.name || wanted == std::to_string(i)) found = &camera;
+  }
+  if (found != nullptr) return *found;
+  throw UsageError(fmt::format("--camera '{}' is not in the scene; there are {}{}", wanted,
+                               fmt::join(names, ", "), suggestion(wanted, names)));
+}
+
+// A name may have commas: the whole is tried first.
+std::vector<Camera> findCameras(const Scene& scene, const std::string& wanted) {
+  const bool whole = std::any_of(scene.cameras.begin(), scene.cameras.end(),
+                                 [&](const Camera& camera) { return camera.name == wanted; });
+  if (whole || wanted.empty()) return {findCamera(scene, wanted)};
+  std::vector<Camera> cameras;
+  for (size_t begin = 0; begin <= wanted.size();) {
+    const size_t end = std::min(wanted.find(',', begin), wanted.size());
+    if (end == begin) {
+      throw UsageError(fmt::format("--camera '{}': names are separated by single commas", wanted));
     }
+    cameras.push_back(findCamera(scene, wanted.substr(begin, end - begin)));
+    begin = end + 1;
   }
-  if (chosen == nullptr) {
-    throw UsageError(fmt::format("--camera '{}' is not in the scene; there are {}{}",
-                                 options.camera, fmt::join(names, ", "),
-                                 suggestion(options.camera, names)));
-  }
-  Camera camera = *chosen;
+  return cameras;
+}
+
+Camera withFilm(Camera camera, const RenderOptions& options) {
   if (!options.size.empty()) {
     const auto [width, height] =
         parseIntegers<2>(options.size, 'x', "--size", "WxH, as in 640x480");
@@ -117,6 +137,24 @@ Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
   return camera;
 }
 
+}  // namespace
+
+std::vector<Camera> chooseCameras(const Scene& scene, const RenderOptions& options) {
+  std::vector<Camera> cameras = findCameras(scene, options.camera);
+  for (Camera& camera : cameras) camera = withFilm(camera, options);
+  return cameras;
+}
+
+Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
+  std::vector<Camera> cameras = chooseCameras(scene, options);
+  if (cameras.size() > 1) {
+    throw UsageError(fmt::format(
+        "--camera '{}' is a path through several cameras; say in how many frames with --frames N",
+        options.camera));
+  }
+  return std::move(cameras.front());
+}
+
 PixelSet choosePixels(const Camera& camera, const RenderOptions& options) {
   if (options.pixels == 0) return {};
   const int width = camera.cropX1 - camera.cropX0, height = camera.cropY1 - camera.cropY0;
@@ -139,6 +177,7 @@ Film makeFilm(const Camera& camera, const RenderOptions& options) {
   film.addLayer("direct");
   film.addLayer("indirect");
   for (const std::string& name : layers) {
+    if (name == "groups" || name == "types" || name == "cost") continue;  // addLightLayers()
     film.addLayer(name, name == "depth" ? 1 : 3);
   }
   return film;
@@ -188,8 +227,7 @@ void requireOutputs(const RenderOptions& options) {
     requireWritable(file);
   }
   std::vector<std::string> files = options.outputs;
-  for (const std::string& file :
-       {options.stats, options.saveLights, options.checkpoint, options.resume}) {
+  for (const std::string& file : {options.stats, options.saveLights, options.checkpoint, options.resume}) {
     if (file.empty()) continue;
     requireWritable(file);
     files.push_back(file);
@@ -201,13 +239,14 @@ void requireOutputs(const RenderOptions& options) {
   }
 }
 
-void writeOutputs(const Film& film, const RenderOptions& options, Context& context) {
+void writeOutputs(const Film& film, const RenderOptions& options, std::optional<ToneCurve>& curve,
+                  Context& context) {
   for (const std::string& file : options.outputs) {
     if (std::filesystem::path(file).extension() == ".exr") {
       io::writeExr(file, film);
     } else {
-      const ToneCurve curve = measureToneCurve(film, {.exposure = options.exposure});
-      io::writePng(file, toneMap(film, curve), film.width, film.height);
+      if (!curve) curve = measureToneCurve(film, {.exposure = options.exposure});
+      io::writePng(file, toneMap(film, *curve), film.width, film.height);
     }
     context.info(fmt::format("wrote {}", file));
   }

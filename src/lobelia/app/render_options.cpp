@@ -83,7 +83,20 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
   c.add_option("--pixels", o.pixels, "Compute only N pixels, spread over the image by the seed")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 32));
-  c.add_option("--camera", o.camera, "Camera by name or index (from 0)")->type_name("NAME");
+  c.add_option("--camera", o.camera,
+               "Camera by name or index (from 0); with --frames several, A,B,C: a smooth path "
+               "through them")
+      ->type_name("NAME");
+  c.add_option("--frames", o.frames,
+               "Render N frames along the camera's path; files are numbered: %04d in a name, or "
+               ".0000 before the extension")
+      ->type_name("N")
+      ->check(integerRange(1, 1'000'000));
+  c.add_option("--frame", o.frame, "Only this of the frames (from 0), or A-B")->type_name("K|A-B");
+  c.add_flag("--turntable", o.turntable,
+             "The frames go once around what the camera looks at, about the vertical axis");
+  c.add_option("--display", o.display, "Show the picture in tev while it is made")
+      ->type_name("HOST:PORT");
   c.add_option("--max-depth", o.maxDepth,
                "1: emission only, 2: direct light, ...; default: the scene's, else unlimited")
       ->type_name("N")

@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "lobelia/app/band_plan.h"
+#include "lobelia/app/light_layers.h"
+#include "lobelia/app/preview_rows.h"
 #include "lobelia/app/sampled_film.h"
 #include "lobelia/bsdf/lobe_kind.h"
 
@@ -21,7 +23,8 @@ class VirtualLightRender {
  public:
   VirtualLightRender(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                      const PixelSet& pixels, int maxDepth, const RenderOptions& options, Film& film,
-                     Checkpoints* checkpoints, Context& context)
+                     Checkpoints* checkpoints, FilmPreview* preview, const VirtualLights* firstSet,
+                     Context& context)
       : tracer_(tracer),
         emitters_(emitters),
         camera_(camera),
@@ -29,14 +32,17 @@ class VirtualLightRender {
         maxDepth_(maxDepth),
         film_(film),
         checkpoints_(checkpoints),
+        preview_(preview),
         context_(context) {
-    report_.lights = obtainLights(tracer, emitters, maxDepth, 0, options, context);
+    report_.lights =
+        firstSet ? *firstSet : obtainLights(tracer, emitters, maxDepth, 0, options, context);
     parts_ = splitLights(report_.lights);
     plan_ = planBands(tracer, pixels, maxDepth, report_.lights.size(), options, film);
     report_.sets = plan_.sets;
     rowSamples_.assign(static_cast<size_t>(film.height), 0);
     variance_.emplace(film);
     backup_.emplace(film, plan_.bandRows);
+    layers_.emplace(emitters.groups(), options, plan_.eye.sampleCount, film);
   }
 
   VirtualLightReport run() {
@@ -90,10 +96,19 @@ class VirtualLightRender {
     const std::optional<Receivers> receivers = traceBand(y0, y1);
     if (!receivers || !gatherBand(*receivers)) return false;
     for (int y = y0; y < y1; ++y) ++rowSamples_[static_cast<size_t>(y)];
+    show(y0, y1);
     at_ = {.sample = at_.sample, .band = at_.band + 1};
     context_.progress("render", (at_.sample + static_cast<double>(at_.band) / plan_.bands) /
                                     plan_.eye.sampleCount);
     return true;
+  }
+
+  // All rows of a band have as many samples.
+  void show(int y0, int y1) const {
+    if (!preview_) return;
+    const float samples = static_cast<float>(rowSamples_[static_cast<size_t>(y0)]);
+    previewRows(*preview_, film_, options_, y0, y1,
+                static_cast<float>(plan_.eye.sampleCount) / samples);
   }
 
   std::optional<Receivers> traceBand(int y0, int y1) {
@@ -137,9 +152,13 @@ class VirtualLightRender {
   // Adds all of the run or nothing.
   bool gatherRun(const Receivers& run) {
     std::vector<Rgb> direct(run.points.size()), indirect(run.points.size());
-    gather(run, parts_.direct, direct);
-    if (options_.component != "direct") gather(run, parts_.indirect, indirect);
+    auto directParts = layers_->wanted(), indirectParts = layers_->wanted();
+    gather(run, parts_.direct, direct, directParts ? &*directParts : nullptr);
+    if (options_.component != "direct")
+      gather(run, parts_.indirect, indirect, indirectParts ? &*indirectParts : nullptr);
     if (context_.cancelled()) return false;
+    if (directParts) layers_->add(run, *directParts, true);
+    if (indirectParts) layers_->add(run, *indirectParts, false);
     for (size_t i = 0; i < run.points.size(); ++i) {
       const ReceiverPoint& point = run.points[i];
       addToLayer(film_, point.primary ? "direct" : "indirect", point.pixel, direct[i]);
@@ -148,8 +167,9 @@ class VirtualLightRender {
     return true;
   }
 
-  void gather(const Receivers& run, const VirtualLights& lights, std::span<Rgb> radiance) {
-    if (lights.size() > 0) gatherAll(tracer_, run, lights, plan_.gather, radiance, context_);
+  void gather(const Receivers& run, const VirtualLights& lights, std::span<Rgb> radiance,
+              GatherParts* parts) {
+    if (lights.size() > 0) gatherAll(tracer_, run, lights, plan_.gather, radiance, context_, parts);
   }
 
   StateFields state() {
@@ -230,6 +250,7 @@ class VirtualLightRender {
   const int maxDepth_;
   Film& film_;
   Checkpoints* const checkpoints_;
+  FilmPreview* const preview_;
   Context& context_;
   const int64_t start_ = nanosecondsNow();
 
@@ -240,6 +261,7 @@ class VirtualLightRender {
   std::vector<int> rowSamples_;
   std::optional<VarianceMeter> variance_;
   std::optional<BandBackup> backup_;
+  std::optional<LightLayers> layers_;
   std::optional<Receivers> resumed_;  // of the band in which the checkpoint was made
   VirtualLightReport report_;
 };
@@ -249,9 +271,10 @@ class VirtualLightRender {
 VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSampler& emitters,
                                        const Camera& camera, const PixelSet& pixels, int maxDepth,
                                        const RenderOptions& options, Film& film, Context& context,
-                                       Checkpoints* checkpoints) {
+                                       Checkpoints* checkpoints, FilmPreview* preview,
+                                       const VirtualLights* firstSet) {
   return VirtualLightRender(tracer, emitters, camera, pixels, maxDepth, options, film, checkpoints,
-                            context)
+                            preview, firstSet, context)
       .run();
 }
 

@@ -4,6 +4,7 @@
 #include "lobelia/app/render_options.h"
 #include "lobelia/base/checkpoints.h"
 #include "lobelia/film/film.h"
+#include "lobelia/film/film_preview.h"
 #include "lobelia/gather/gather.h"
 #include "lobelia/lights/light_pass.h"
 
@@ -17,10 +18,13 @@ struct VirtualLightReport {  // for --stats
 
 // Adds to film's layers "direct" and "indirect" (and AOVs). When cancelled or out of time, every
 // pixel holds the mean of the samples it got; pixels without any have alpha 0. checkpoints: where
-// to save the state and to go on from; null: nowhere.
+// to save the state and to go on from; preview: who looks on. Null: nowhere, nobody. firstSet: the
+// first set of lights when it is made already (another frame's report has it).
 VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSampler& emitters,
                                        const Camera& camera, const PixelSet& pixels, int maxDepth,
                                        const RenderOptions& options, Film& film, Context& context,
-                                       Checkpoints* checkpoints = nullptr);
+                                       Checkpoints* checkpoints = nullptr,
+                                       FilmPreview* preview = nullptr,
+                                       const VirtualLights* firstSet = nullptr);
 
 }  // namespace lobelia::app

@@ -23,6 +23,7 @@ constexpr uint64_t kStream = 0x6c69676874ull;
 struct Splat {
   uint32_t pixel;
   bool direct;
+  uint16_t group;
   Rgb value;
 };
 
@@ -59,6 +60,7 @@ class ParticlePasses {
         direct_(film.pixelCount() * 3),
         indirect_(film.pixelCount() * 3),
         square_(film.pixelCount() * 3),
+        groups_(groupsOf(emitters, film)),
         start_(nanosecondsNow()) {
     for (const uint32_t pixel : settings.pixels.pixels) wanted_[pixel] = 1;
     constexpr int kSteps = 4096;
@@ -100,6 +102,7 @@ class ParticlePasses {
         for (const Splat& splat : list) add(splat);
       }
       particles_ += count;
+      if (settings_.preview && settings_.preview->due()) show();
       context_.progress("light", static_cast<double>(particles_) / static_cast<double>(total));
       if (checkpoints && checkpoints->due()) save(*checkpoints);
     }
@@ -110,6 +113,10 @@ class ParticlePasses {
   void write() const {
     if (particles_ == 0) return;
     const double n = static_cast<double>(particles_);
+    for (size_t g = 0; g < groups_.size(); ++g) {
+      if (groups_[g].empty()) continue;
+      writeLayer(emitters_.groups().layer(g), [&](size_t i) { return groups_[g][i] / n; });
+    }
     writeLayer("direct", [&](size_t i) { return direct_[i] / n; });
     writeLayer("indirect", [&](size_t i) { return indirect_[i] / n; });
     writeLayer("", [&](size_t i) { return (direct_[i] + indirect_[i]) / n; });
@@ -131,8 +138,19 @@ class ParticlePasses {
     fields.add("direct", direct_);
     fields.add("indirect", indirect_);
     fields.add("square", square_);
+    for (size_t g = 0; g < groups_.size(); ++g)
+      fields.add("group-" + std::to_string(g), groups_[g]);
     fields.addValue("particles", particles_);
     return fields;
+  }
+
+  // Sums for the groups that the film has layers for; empty for the others.
+  static std::vector<std::vector<double>> groupsOf(const EmitterSampler& emitters,
+                                                   const Film& film) {
+    std::vector<std::vector<double>> sums(emitters.groups().size());
+    for (size_t g = 0; g < sums.size(); ++g)
+      if (film.layers.contains(emitters.groups().layer(g))) sums[g].resize(film.pixelCount() * 3);
+    return sums;
   }
 
   bool stopped() const {
@@ -140,18 +158,38 @@ class ParticlePasses {
     return context_.cancelled() || (settings_.timeLimit > 0 && seconds > settings_.timeLimit);
   }
 
+  // Emission seen at once is in the film already.
+  void show() const {
+    const double n = static_cast<double>(particles_);
+    std::vector<uint32_t> pixels;
+    std::vector<Rgb> values;
+    for (uint32_t pixel = 0; pixel < wanted_.size(); ++pixel) {
+      if (!wanted_[pixel]) continue;
+      Rgb value = film_.rgb(pixel);
+      for (int c = 0; c < 3; ++c) {
+        const size_t i = pixel * size_t{3} + static_cast<size_t>(c);
+        value[c] += static_cast<float>((direct_[i] + indirect_[i]) / n);
+      }
+      pixels.push_back(pixel);
+      values.push_back(value);
+    }
+    settings_.preview->update(pixels, values);
+  }
+
   void add(const Splat& splat) {
     std::vector<double>& sums = splat.direct ? direct_ : indirect_;
+    std::vector<double>& group = groups_[splat.group];
     for (int c = 0; c < 3; ++c) {
       const size_t i = splat.pixel * size_t{3} + static_cast<size_t>(c);
       const double value = static_cast<double>(splat.value[c]);
       sums[i] += value;
       square_[i] += value * value;
+      if (!group.empty()) group[i] += value;
     }
   }
 
   template <class F>
-  void writeLayer(const char* name, const F& value) const {
+  void writeLayer(const std::string& name, const F& value) const {
     const auto layer = film_.layers.find(name);
     if (layer == film_.layers.end() || layer->second.channels != 3) return;
     for (size_t i = 0; i < direct_.size(); ++i) {
@@ -160,7 +198,7 @@ class ParticlePasses {
   }
 
   // Adds light seen at a film position to the pixels whose filter covers it.
-  void splat(Vec2f film, Rgb direct, Rgb indirect, PathCounts& counts,
+  void splat(Vec2f film, Rgb direct, Rgb indirect, uint16_t group, PathCounts& counts,
              std::vector<Splat>& out) const {
     if (!isFinite(direct) || !isFinite(indirect)) {
       ++counts.nonFinite;
@@ -180,15 +218,15 @@ class ParticlePasses {
                                static_cast<uint32_t>(px);
         const float weight = wx * wy * filterNorm_ * filterNorm_;
         if (weight == 0 || !wanted_[pixel]) continue;
-        if (direct != Rgb{}) out.push_back({pixel, true, direct * weight});
-        if (indirect != Rgb{}) out.push_back({pixel, false, indirect * weight});
+        if (direct != Rgb{}) out.push_back({pixel, true, group, direct * weight});
+        if (indirect != Rgb{}) out.push_back({pixel, false, group, indirect * weight});
       }
     }
   }
 
   // chain: throughput over paths whose events after the first are sharp; all: over any.
   void connect(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wo, int vertex, Rgb chain, Rgb all,
-               Vec2f uLens, PathCounts& counts, std::vector<Splat>& out) const {
+               Vec2f uLens, uint16_t group, PathCounts& counts, std::vector<Splat>& out) const {
     FilmConnection lens;
     if (!connectToCamera(camera_, at.p, uLens, &lens)) return;
     const Vec3f wi = normalize(lens.lens - at.p);
@@ -207,7 +245,7 @@ class ParticlePasses {
     }
     const Rgb indirect = vertex > 1 ? max(light - direct, Rgb{}) : Rgb{};
     splat(lens.film, settings_.component == Component::indirect ? Rgb{} : direct,
-          settings_.component == Component::direct ? Rgb{} : indirect, counts, out);
+          settings_.component == Component::direct ? Rgb{} : indirect, group, counts, out);
   }
 
   void trace(size_t particle, PathCounts& counts, std::vector<Splat>& out) const {
@@ -216,6 +254,7 @@ class ParticlePasses {
     const Vec2f position = random.next2D();
     const auto emitted = emitters_.sampleRay(select, position, random.next2D());
     if (!emitted) return;
+    const uint16_t group = emitters_.groups().of(emitted->emitter);
     Ray ray = emitted->ray;
     // Roulette compares with what the particle set out with.
     const float start = maxComponent(emitted->power);
@@ -237,7 +276,8 @@ class ParticlePasses {
         chain /= survival;
       }
       const Bsdf bsdf = makeBsdf(emitters_.scene(), at, wo, settings_.specularLimit);
-      if (!onlyDelta(bsdf)) connect(at, bsdf, wo, vertex, chain, all, random.next2D(), counts, out);
+      if (!onlyDelta(bsdf))
+        connect(at, bsdf, wo, vertex, chain, all, random.next2D(), group, counts, out);
       const float uLobe = random.next1D();
       const auto s = sample(bsdf, wo, uLobe, random.next2D(), LobeSet::all, Transport::importance);
       if (!s || s->weight == Rgb{}) return;
@@ -264,6 +304,7 @@ class ParticlePasses {
   const Camera camera_;
   std::vector<uint8_t> wanted_;
   std::vector<double> direct_, indirect_, square_;
+  std::vector<std::vector<double>> groups_;  // by light group
   float filterNorm_ = 1;
   uint64_t particles_ = 0;
   const int64_t start_;

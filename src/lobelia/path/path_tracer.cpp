@@ -31,17 +31,46 @@ struct Place {  // where a path's light goes
   float weight;
 };
 
+// What some pictures want besides, kept apart from what all pictures need: doubles of a pixel,
+// three for every light group, then one for the rays traced.
+struct ExtraSums {
+  std::vector<std::string> groupLayers;  // empty: no groups
+  bool cost = false;
+  std::vector<double> values;
+
+  ExtraSums(const EmitterSampler& emitters, const Film& film) {
+    const LightGroups& groups = emitters.groups();
+    for (size_t g = 0; g < groups.size(); ++g) groupLayers.push_back(groups.layer(g));
+    const auto has = [&](const std::string& name) { return film.layers.contains(name); };
+    if (std::none_of(groupLayers.begin(), groupLayers.end(), has)) groupLayers.clear();
+    cost = has("cost");
+    values.resize(film.pixelCount() * perPixel());
+  }
+  size_t perPixel() const { return 3 * groupLayers.size() + (cost ? 1 : 0); }
+  void add(uint32_t pixel, const PathState& path, float weight) {
+    double* out = values.data() + pixel * perPixel();
+    const Rgb* sums = path.groups.sums;
+    bool finite = true;  // a path that is not is left out as a whole
+    for (size_t g = 0; g < groupLayers.size(); ++g) finite &= isFinite(sums[g]);
+    for (size_t g = 0; g < groupLayers.size(); ++g)
+      for (int c = 0; c < 3; ++c) *out++ += finite ? static_cast<double>(weight * sums[g][c]) : 0;
+    if (cost) *out += static_cast<double>(path.depth) + path.shadowRays;
+  }
+};
+
 class PathPasses {
  public:
   PathPasses(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
              const PathSettings& settings, Film& film, Context& context)
       : walk_(tracer, emitters, settings),
+        emitters_(emitters),
         camera_(camera),
         settings_(settings),
         film_(film),
         context_(context),
         checkpoints_(settings.checkpoints),
         sums_(film.pixelCount()),
+        extra_(emitters, film),
         start_(nanosecondsNow()) {
     if (film.layers.contains("albedo") || film.layers.contains("normal") ||
         film.layers.contains("depth")) {
@@ -77,6 +106,8 @@ class PathPasses {
       const double sum = s.direct[c] + s.indirect[c], n = s.count;
       return std::max(0.0, s.square[c] - sum * sum / n) / (n - 1);
     });
+    for (size_t g = 0; g < extra_.groupLayers.size(); ++g) writeExtra(extra_.groupLayers[g], 3 * g);
+    if (extra_.cost) writeExtra("cost", extra_.perPixel() - 1);
     if (guides_.empty()) return;
     writeGuide("albedo", [](const GuideSum& g, size_t c) { return g.albedo[c]; });
     writeGuide("normal", [](const GuideSum& g, size_t c) { return g.normal[c]; });
@@ -142,6 +173,7 @@ class PathPasses {
     StateFields fields;
     fields.add("tile-samples", tileSamples_);
     fields.add("sums", sums_);
+    fields.add("extra", extra_.values);
     fields.add("guides", guides_);
     return fields;
   }
@@ -161,10 +193,16 @@ class PathPasses {
     std::vector<Place> places;
     paths.reserve(kBatch);
     places.reserve(kBatch);
+    std::vector<Rgb> groupSums;
     const auto flush = [&] {
+      const size_t groups = extra_.groupLayers.size();
+      groupSums.assign(paths.size() * groups, Rgb{});
+      for (size_t i = 0; i < paths.size() && groups > 0; ++i)
+        paths[i].groups = {&emitters_, settings_.component, groupSums.data() + i * groups};
       walk_.trace(paths, counts);
       for (size_t i = 0; i < paths.size(); ++i) {
         add(places[i].pixel, paths[i].result, places[i].weight);
+        if (extra_.perPixel() > 0) extra_.add(places[i].pixel, paths[i], places[i].weight);
       }
       paths.clear();
       places.clear();
@@ -176,9 +214,20 @@ class PathPasses {
       if (paths.size() + static_cast<size_t>(last - first) > kBatch) flush();
     }
     flush();
+    if (settings_.preview) show(tile);
     context_.statistics.addCount("path_rays", counts.pathRays);
     context_.statistics.addCount("shadow_rays", counts.shadowRays);
     context_.statistics.addCount("nonfinite", counts.nonFinite);
+  }
+
+  void show(const std::vector<uint32_t>& tile) const {
+    std::vector<Rgb> values(tile.size());
+    for (size_t i = 0; i < tile.size(); ++i) {
+      const PixelSum& sum = sums_[tile[i]];
+      for (int c = 0; c < 3; ++c)
+        values[i][c] = static_cast<float>((sum.direct[c] + sum.indirect[c]) / sum.count);
+    }
+    settings_.preview->update(tile, values);
   }
 
   void start(uint32_t pixel, int sample, std::vector<PathState>& paths,
@@ -218,7 +267,7 @@ class PathPasses {
   }
 
   template <class F>
-  void writeLayer(const char* name, const F& value) {
+  void writeLayer(const std::string& name, const F& value) {
     const auto layer = film_.layers.find(name);
     if (layer == film_.layers.end()) return;
     const size_t channels = static_cast<size_t>(layer->second.channels);
@@ -234,6 +283,10 @@ class PathPasses {
   void write(const char* name, const F& value) {
     writeLayer(name, [&](size_t i, size_t c) { return value(sums_[i], c); });
   }
+  void writeExtra(const std::string& name, size_t first) {
+    writeLayer(
+        name, [&](size_t i, size_t c) { return extra_.values[i * extra_.perPixel() + first + c]; });
+  }
   template <class F>
   void writeGuide(const char* name, const F& value) {
     writeLayer(name, [&](size_t i, size_t c) { return value(guides_[i], c); });
@@ -241,6 +294,7 @@ class PathPasses {
 
   static constexpr const char* kStage = "path";
   const PathWalk<Tracer> walk_;
+  const EmitterSampler& emitters_;
   const Camera& camera_;
   const PathSettings& settings_;
   Film& film_;
@@ -249,6 +303,7 @@ class PathPasses {
   std::vector<std::vector<uint32_t>> tiles_;  // pixels
   std::vector<int32_t> tileSamples_;          // that a tile's pixels have
   std::vector<PixelSum> sums_;
+  ExtraSums extra_;
   std::vector<GuideSum> guides_;
   const int64_t start_;
   std::atomic<int64_t> reported_{0};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lobelia/film/film.h"
+#include "lobelia/film/film_preview.h"
 #include "lobelia/path/emitter_sampling.h"
 
 namespace lobelia {
@@ -18,6 +19,22 @@ PixelSet spreadPixels(int width, int height, size_t count, uint64_t seed);
 // The film's alpha: 1 at the pixels of a set, 0 elsewhere; opaque when all are computed.
 void markPixels(Film& film, const PixelSet& pixels);
 
+// Sums of light by light group, when asked for; adds nothing otherwise.
+struct GroupSums {
+  const EmitterSampler* emitters = nullptr;
+  Component component = Component::all;  // what the sums hold
+  Rgb* sums = nullptr;                   // emitters->groups().size() of them
+
+  // Light that an emitter (or EmitterSampler::kEscaped) sends along d.
+  void add(uint32_t emitter, Vec3f d, Rgb direct, Rgb indirect) const {
+    if (sums == nullptr) return;
+    const Rgb value = component == Component::all      ? direct + indirect
+                      : component == Component::direct ? direct
+                                                       : indirect;
+    emitters->addByGroup(emitter, d, value, sums);
+  }
+};
+
 struct PathSettings {
   int spp = 64;
   int maxDepth = -1;  // Mitsuba's count; -1 unlimited
@@ -29,10 +46,12 @@ struct PathSettings {
   bool hideEmitters = false;
   PixelSet pixels;
   Checkpoints* checkpoints = nullptr;  // where to save the state and to go on from; null: nowhere
+  FilmPreview* preview = nullptr;      // who looks on; null: nobody
 };
 
 // Adds the picture and the layers "direct", "indirect", "albedo", "normal", "depth", "variance"
-// (variance of the mean) that film already has to film. Counts "path_rays", "shadow_rays",
+// (variance of the mean), LightGroups::layer() of every group (their sum is the picture) and "cost"
+// (rays traced per sample) that film already has to film. Counts "path_rays", "shadow_rays",
 // "nonfinite" in the context's statistics. Same seed, same pixels for any number of threads. False
 // when stopped before all samples were added.
 bool renderPath(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
