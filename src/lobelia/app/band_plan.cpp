@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lobelia/app/light_layers.h"
+
 namespace lobelia::app {
 namespace {
 
@@ -26,6 +28,7 @@ BandPlan planBands(const Tracer& tracer, const PixelSet& pixels, int maxDepth, s
   plan.eye.specularLimit = options.specularLimit;
   if (options.direct == "lights") plan.eye.directSamples = 0;
   plan.eye.hideEmitters = tracer.scene().hideEmitters;
+  plan.eye.component = componentOf(options);
   plan.eye.pixels = pixels;
 
   plan.sets = lightSetCount(options, plan.eye.sampleCount);

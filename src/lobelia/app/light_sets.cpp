@@ -31,6 +31,14 @@ LightParts splitLights(const VirtualLights& lights) {
                parts.indirect.diffuseDepthEnds);
   splitByDepth(lights.glossy, lights.glossyDepthEnds, parts.direct.glossy,
                parts.direct.glossyDepthEnds, parts.indirect.glossy, parts.indirect.glossyDepthEnds);
+  parts.direct.groups = parts.indirect.groups = lights.groups;
+  parts.direct.omniGroups = lights.omniGroups;
+  parts.direct.directionalGroups = lights.directionalGroups;
+  if (!lights.glossyGroups.empty()) {
+    std::vector<uint32_t> ends;
+    splitByDepth(lights.glossyGroups, lights.glossyDepthEnds, parts.direct.glossyGroups, ends,
+                 parts.indirect.glossyGroups, ends);
+  }
   return parts;
 }
 

@@ -18,11 +18,25 @@ struct GatherSettings {
   bool direct = false;
 };
 
+// Parts of what is gathered, when asked for. The whole sum is computed all the same, to the same
+// bits; parts cost their shading once more, no rays.
+struct GatherParts {
+  // Light's class x receiver's lobes: diffuse (with sheen and diffuse transmission) or glossy.
+  static constexpr size_t kTypes = 8;  // [2 * class + lobes], classes in the order of LightClass
+  size_t groupCount = 0;               // of VirtualLights::groups; 0: not asked for
+  bool byType = false, countRays = false;
+  // Set, not added to, by gatherAll().
+  std::vector<Rgb> groups;     // [group * points + point]
+  std::vector<Rgb> types;      // [type * points + point]
+  std::vector<uint32_t> rays;  // shadow rays of a point
+};
+
 // Adds to radiance[i] the light that receiver point i sends to its pixel (weight included) from all
 // lights. Counts "shadow_rays", "node_pairs_shaded" (pairs found visible) and "nonfinite" (pairs
 // left out because their value was not finite); books seconds to "visibility" and "shade". When
-// cancelled, a point has its whole sum or nothing added.
+// cancelled, a point has its whole sum or nothing added. parts: see there; null: none.
 void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,
-               const GatherSettings& settings, std::span<Rgb> radiance, Context& context);
+               const GatherSettings& settings, std::span<Rgb> radiance, Context& context,
+               GatherParts* parts = nullptr);
 
 }  // namespace lobelia

@@ -16,10 +16,12 @@
 // double over the blocks: it does not depend on threads, nor on how points share tiles.
 #include <algorithm>
 #include <atomic>
+#include <optional>
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/gather/gather.h"
 #include "lobelia/gather/kernels.h"
+#include "lobelia/gather/tile_parts.h"
 
 namespace lobelia {
 namespace {
@@ -68,11 +70,12 @@ struct Tally {
 class TileGather {
  public:
   TileGather(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,
-             const GatherSettings& settings, const Context& context)
+             const GatherSettings& settings, GatherParts* parts, const Context& context)
       : tracer_(tracer),
         receivers_(receivers),
         lights_(lights),
         settings_(settings),
+        parts_(parts),
         context_(context) {}
 
   // False when cancelled before the end: then nothing was added to radiance.
@@ -81,8 +84,14 @@ class TileGather {
     if (tile.strips.empty()) return true;
     TileSums sums;
     sums.strips.resize(tile.strips.size());
-    for (const LightClass lightClass : kLightClasses)
-      if (!addClass(tile, lightClass, &sums, tally)) return false;
+    std::optional<TileParts> parts;
+    if (parts_ != nullptr) parts.emplace(receivers_, lights_, tile, parts_);
+    for (const LightClass lightClass : kLightClasses) {
+      if (parts) parts->beginClass(sums);
+      if (!addClass(tile, lightClass, &sums, parts ? &*parts : nullptr, tally)) return false;
+      if (parts) parts->endClass(lightClass, sums);
+    }
+    if (parts) parts->write();
     tally->pairs += sums.pairs;
     tally->nonfinite += sums.nonfinite;
     for (size_t s = 0; s < tile.strips.size(); ++s) write(tile.strips[s], sums.strips[s], radiance);
@@ -90,7 +99,8 @@ class TileGather {
   }
 
  private:
-  bool addClass(const Tile& tile, LightClass lightClass, TileSums* sums, Tally* tally) const {
+  bool addClass(const Tile& tile, LightClass lightClass, TileSums* sums, TileParts* parts,
+                Tally* tally) const {
     int smallestDepth = 255;
     for (const PointStrip& strip : tile.strips)
       for (const uint8_t depth : strip.depth) smallestDepth = std::min<int>(smallestDepth, depth);
@@ -101,10 +111,12 @@ class TileGather {
       if (context_.cancelled()) return false;
       prepare(lights_, lightClass, first, std::min(kBlockLights, range.end - first), &block);
       allowPairs(tile, block, lights_, settings_, &pairs);
+      if (parts != nullptr) parts->watchRays(&pairs);
       const int64_t start = nanosecondsNow();
       tally->rays += keepVisible(tile, block, tracer_, &pairs);
       const int64_t traced = nanosecondsNow();
       shade(tile, block, tracer_.scene(), settings_.clamp, pairs, sums);
+      if (parts != nullptr) parts->add(block, tracer_.scene(), settings_.clamp, pairs);
       tally->visibilityNs += traced - start;
       tally->shadeNs += nanosecondsNow() - traced;
     }
@@ -125,6 +137,7 @@ class TileGather {
   const Receivers& receivers_;
   const VirtualLights& lights_;
   const GatherSettings& settings_;
+  GatherParts* parts_;
   const Context& context_;
 };
 
@@ -139,13 +152,19 @@ size_t tilePoints(size_t points) {
 }  // namespace
 
 void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,
-               const GatherSettings& settings, std::span<Rgb> radiance, Context& context) {
+               const GatherSettings& settings, std::span<Rgb> radiance, Context& context,
+               GatherParts* parts) {
   const size_t points = receivers.points.size();
   if (radiance.size() != points)
     throw std::invalid_argument("gatherAll: one radiance value per receiver point");
   const size_t size = tilePoints(points);
   const size_t tiles = (points + size - 1) / size;
-  const TileGather tileGather(tracer, receivers, lights, settings, context);
+  if (parts != nullptr) {
+    parts->groups.assign(parts->groupCount * points, Rgb{});
+    parts->types.assign(parts->byType ? GatherParts::kTypes * points : 0, Rgb{});
+    parts->rays.assign(parts->countRays ? points : 0, 0);
+  }
+  const TileGather tileGather(tracer, receivers, lights, settings, parts, context);
   std::atomic<uint64_t> rays{0}, pairs{0}, nonfinite{0};
   std::atomic<int64_t> visibilityNs{0}, shadeNs{0};
   std::atomic<size_t> done{0};

@@ -13,6 +13,7 @@ namespace lobelia::gather {
 struct PairMasks {
   std::vector<uint16_t> bits;  // [light * strips + strip]
   size_t strips = 0;
+  std::vector<uint16_t>* traced = nullptr;  // when set: pairs that keepVisible() traced a ray for
   void reset(size_t lightCount, size_t stripCount) {
     strips = stripCount;
     bits.resize(lightCount * stripCount);

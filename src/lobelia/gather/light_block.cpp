@@ -69,6 +69,23 @@ size_t upToDepth(const std::vector<uint32_t>& ends, size_t count, int depth) {
 
 }  // namespace
 
+uint16_t groupOf(const VirtualLights& lights, LightClass lightClass, size_t index) {
+  const auto at = [&](const std::vector<uint16_t>& groups) {
+    return groups.empty() ? uint16_t{0} : groups[index];
+  };
+  switch (lightClass) {
+    case LightClass::omni:
+      return at(lights.omniGroups);
+    case LightClass::directional:
+      return at(lights.directionalGroups);
+    case LightClass::diffuse:
+      return static_cast<uint16_t>(lights.diffuse[index].tag >> 8);
+    case LightClass::glossy:
+      break;
+  }
+  return at(lights.glossyGroups);
+}
+
 size_t lightCount(const VirtualLights& lights, LightClass lightClass) {
   switch (lightClass) {
     case LightClass::omni:

@@ -34,6 +34,8 @@ struct LightBlock {
   PreparedLight lights[kBlockLights];
 };
 
+// Light group of light `index` of a class.
+uint16_t groupOf(const VirtualLights& lights, LightClass lightClass, size_t index);
 size_t lightCount(const VirtualLights& lights, LightClass lightClass);
 // How many of the lights of a class have depth <= `depth`; omni and directional lights are emitters
 // themselves (depth 0). depth < 0: none.

@@ -106,6 +106,9 @@ size_t keepVisibleOf(const g::Tile& tile, const g::LightBlock& block, const Trac
         const Mf mask = lightFaces<kClass>(light, d) & receiverFaces(strip, lane, d) &
                         maskFromBits(candidates >> lane);
         if (!any(mask)) continue;
+        if (pairs->traced != nullptr) {
+          (*pairs->traced)[l * pairs->strips + s] |= static_cast<uint16_t>(maskBits(mask) << lane);
+        }
         const Mf front = dot(load(strip.ng, lane), d) >= Vf(0.f);
         const V3<Vf> f = load(strip.front, lane), b = load(strip.back, lane);
         const V3<Vf> origin{select(front, f.x, b.x), select(front, f.y, b.y),

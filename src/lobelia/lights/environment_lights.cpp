@@ -14,7 +14,9 @@
 //    the expected light distribution is then the environment's own (for one colour), and another
 //    seed gives other directions.
 //  - All environments of a scene (and constants) are sampled together, in the frame and at the
-//    resolution of the first environment that has an image.
+//    resolution of the first environment that has an image. Where they are of several light groups,
+//    a stratum has one light for each, all in one direction.
+#include <map>
 #include <queue>
 
 #include "lobelia/base/parallel.h"
@@ -39,13 +41,15 @@ struct Rect {
 // Radiance times solid angle over cells of latitude and longitude around the y axis of `frame`.
 class SphereGrid {
  public:
-  SphereGrid(const EmitterSampler& emitters, size_t count) {
-    choose(emitters.scene(), count);
+  // radiance(d): Rgb
+  template <class Radiance>
+  SphereGrid(const Scene& scene, size_t count, const Radiance& radiance) {
+    choose(scene, count);
     const size_t cells = static_cast<size_t>(width_) * static_cast<size_t>(height_);
     cells_.resize(cells);
     parallelFor(static_cast<size_t>(height_), 4, [&](size_t y) {
       for (int x = 0; x < width_; ++x)
-        cells_[index(x, static_cast<int>(y))] = integrate(emitters, x, static_cast<int>(y));
+        cells_[index(x, static_cast<int>(y))] = integrate(radiance, x, static_cast<int>(y));
     });
     sumLuminance();
   }
@@ -152,15 +156,16 @@ class SphereGrid {
     }
   }
 
-  Rgb integrate(const EmitterSampler& emitters, int x, int y) const {
+  template <class Radiance>
+  Rgb integrate(const Radiance& radiance, int x, int y) const {
     const double dPhi = 2.0 * kPi / width_ / block_, dTheta = 1.0 * kPi / height_ / block_;
     Vec3d total;
     for (int j = 0; j < block_; ++j) {
       const double theta = (y * block_ + j) * dTheta;
       const float solid = static_cast<float>(dPhi * (std::cos(theta) - std::cos(theta + dTheta)));
       for (int i = 0; i < block_; ++i) {
-        const Rgb c = emitters.environment(
-            direction((x * block_ + i + 0.5) * dPhi, std::cos(theta + 0.5 * dTheta)));
+        const Rgb c =
+            radiance(direction((x * block_ + i + 0.5) * dPhi, std::cos(theta + 0.5 * dTheta)));
         if (isFinite(c)) total += Vec3d(c.x, c.y, c.z) * static_cast<double>(solid);
       }
     }
@@ -201,11 +206,13 @@ struct Stratum {
 
 std::vector<DirectionalLight> environmentLights(const EmitterSampler& emitters, size_t count,
                                                 uint64_t seed) {
-  const auto& all = emitters.scene().emitters;
-  const auto first = std::find_if(all.begin(), all.end(), isEnvironment);
-  if (count == 0 || first == all.end()) return {};
-  const uint32_t emitter = static_cast<uint32_t>(first - all.begin());
-  const SphereGrid grid(emitters, count);
+  const Scene& scene = emitters.scene();
+  const LightGroups& groups = emitters.groups();
+  std::map<uint16_t, uint32_t> firsts;  // first environment of every group that has any
+  for (uint32_t i = 0; i < scene.emitters.size(); ++i)
+    if (isEnvironment(scene.emitters[i])) firsts.emplace(groups.of(i), i);
+  if (count == 0 || firsts.empty()) return {};
+  const SphereGrid grid(scene, count, [&](Vec3f d) { return emitters.environment(d); });
   if (!(grid.energy(grid.all()) > 0)) return {};
 
   std::priority_queue<Stratum> open;
@@ -229,10 +236,23 @@ std::vector<DirectionalLight> environmentLights(const EmitterSampler& emitters, 
   Rng rng(seed, kStream);
   std::vector<DirectionalLight> lights;
   lights.reserve(done.size());
-  for (const Rect& r : done) {
-    const Rgb irradiance = grid.integral(r);
-    if (maxComponent(irradiance) > 0)
-      lights.push_back({grid.sampleDirection(r, rng), irradiance, emitter});
+  const auto addLights = [&](const SphereGrid& part, uint32_t emitter, auto&& directionOf) {
+    for (size_t i = 0; i < done.size(); ++i) {
+      const Rgb irradiance = part.integral(done[i]);
+      if (maxComponent(irradiance) > 0) lights.push_back({directionOf(i), irradiance, emitter});
+    }
+  };
+  if (firsts.size() == 1) {
+    addLights(grid, firsts.begin()->second,
+              [&](size_t i) { return grid.sampleDirection(done[i], rng); });
+    return lights;
+  }
+  std::vector<Vec3f> directions;
+  for (const Rect& r : done) directions.push_back(grid.sampleDirection(r, rng));
+  for (const auto& [group, emitter] : firsts) {
+    const size_t g = group;
+    const SphereGrid part(scene, count, [&](Vec3f d) { return emitters.environment(d, g); });
+    addLights(part, emitter, [&](size_t i) { return directions[i]; });
   }
   return lights;
 }

@@ -7,13 +7,14 @@
 
 #include "lobelia/base/error.h"
 #include "lobelia/lights/light_pass.h"
+#include "lobelia/scene/light_groups.h"
 #include "lobelia/store/store.h"
 
 namespace lobelia {
 namespace {
 
 constexpr const char* kKind = "virtual-lights";
-constexpr uint32_t kVersion = 3;
+constexpr uint32_t kVersion = 4;
 
 // The chunk "settings".
 struct StoredSettings {
@@ -34,6 +35,26 @@ void checkDepthEnds(const std::string& file, const char* name, const std::vector
   if (!sorted || last != count)
     damaged(file, std::string("the table of depths of the ") + name +
                       " lights does not fit their number");
+}
+
+// Empty: none of the lights has a group of its own.
+void checkGroups(const std::string& file, const char* name, const std::vector<uint16_t>& groups,
+                 size_t count) {
+  if (!groups.empty() && groups.size() != count)
+    damaged(file,
+            fmt::format("the table of groups of the {} lights does not fit their number", name));
+}
+
+void checkGroups(const std::string& file, const VirtualLights& lights) {
+  checkGroups(file, "omni", lights.omniGroups, lights.omni.size());
+  checkGroups(file, "directional", lights.directionalGroups, lights.directional.size());
+  checkGroups(file, "glossy", lights.glossyGroups, lights.glossy.size());
+  size_t last = 0;
+  for (const auto* groups : {&lights.omniGroups, &lights.directionalGroups, &lights.glossyGroups})
+    for (const uint16_t g : *groups) last = std::max<size_t>(last, g);
+  for (const DiffuseLight& l : lights.diffuse) last = std::max<size_t>(last, l.tag >> 8);
+  if (last >= std::max<size_t>(lights.groups.size(), 1))
+    damaged(file, fmt::format("a light names light group {} of {}", last, lights.groups.size()));
 }
 
 bool isUnit(Vec3f v) { return std::abs(lengthSquared(v) - 1) < 1e-3f; }
@@ -72,6 +93,13 @@ void saveLights(const std::string& file, const VirtualLights& lights) {
   writer.add("glossy", spanOf(lights.glossy));
   writer.add("diffuse-depths", spanOf(lights.diffuseDepthEnds));
   writer.add("glossy-depths", spanOf(lights.glossyDepthEnds));
+  std::vector<char> names;  // each ended by a zero
+  for (const std::string& name : lights.groups)
+    names.insert(names.end(), name.c_str(), name.c_str() + name.size() + 1);
+  writer.add("group-names", spanOf(names));
+  writer.add("omni-groups", spanOf(lights.omniGroups));
+  writer.add("directional-groups", spanOf(lights.directionalGroups));
+  writer.add("glossy-groups", spanOf(lights.glossyGroups));
   writer.save(file);
 }
 
@@ -102,6 +130,14 @@ VirtualLights loadLights(const std::string& file, uint64_t sceneHash) {
   lights.glossyDepthEnds = reader.get<uint32_t>("glossy-depths");
   checkDepthEnds(file, "diffuse", lights.diffuseDepthEnds, lights.diffuse.size());
   checkDepthEnds(file, "glossy", lights.glossyDepthEnds, lights.glossy.size());
+  const std::vector<char> names = reader.get<char>("group-names");
+  if (!names.empty() && names.back() != '\0') damaged(file, "the names of light groups do not end");
+  for (size_t i = 0; i < names.size(); i += lights.groups.back().size() + 1)
+    lights.groups.emplace_back(&names[i]);
+  lights.omniGroups = reader.get<uint16_t>("omni-groups");
+  lights.directionalGroups = reader.get<uint16_t>("directional-groups");
+  lights.glossyGroups = reader.get<uint16_t>("glossy-groups");
+  checkGroups(file, lights);
   checkRecords(file, lights);
   return lights;
 }
@@ -120,6 +156,8 @@ void requireFit(const std::string& file, const VirtualLights& lights, const Ligh
   if (!deepEnough)
     refuse(fmt::format("was made for paths of at most {} edges; use --max-depth {} or less",
                        lights.maxDepth, lights.maxDepth));
+  if (lights.groups != lightGroups(scene).names)
+    refuse("holds lights of other light groups than the scene has; save it again");
   const auto checkEmitter = [&](uint32_t emitter) {
     if (emitter != 0xffffffffu && emitter >= scene.emitters.size())
       damaged(file, fmt::format("a light names emitter {}; the scene has {}", emitter,

@@ -106,6 +106,10 @@ void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, C
   lights->glossyDepthEnds = sortByDepth(
       batches, [](const ParticleBatch& b) -> auto& { return b.glossy; },
       [](const ParticleBatch& b, size_t i) -> size_t { return b.glossyDepth[i]; }, &lights->glossy);
+  sortByDepth(
+      batches, [](const ParticleBatch& b) -> auto& { return b.glossyGroup; },
+      [](const ParticleBatch& b, size_t i) -> size_t { return b.glossyDepth[i]; },
+      &lights->glossyGroups);
   ParticleBatch total;
   for (const ParticleBatch& b : batches) {
     total.rays += b.rays, total.cut += b.cut;
@@ -127,6 +131,7 @@ void addEmitters(const EmitterSampler& emitters, const LightSettings& settings, 
       const bool plain = e.type == EmitterType::point;
       lights->omni.push_back(
           {e.toWorld.point(Vec3f(0.f)), EmissionPattern(scene, e).base(), plain ? 0xffffffffu : i});
+      lights->omniGroups.push_back(emitters.groups().of(i));
     }
   }
   const auto suns = sunLights(scene, kLightsPerSun, seed);
@@ -135,6 +140,8 @@ void addEmitters(const EmitterSampler& emitters, const LightSettings& settings, 
       settings.environmentLights > 0 ? settings.environmentLights : kDefaultEnvironmentLights;
   const auto environment = environmentLights(emitters, count, seed);
   lights->directional.insert(lights->directional.end(), environment.begin(), environment.end());
+  for (const DirectionalLight& light : lights->directional)
+    lights->directionalGroups.push_back(emitters.groups().of(light.emitter));
 }
 
 }  // namespace
@@ -147,6 +154,7 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   lights.maxDepth = settings.maxDepth;
   lights.specularLimit = settings.specularLimit;
   lights.direct = settings.directAsLights;
+  lights.groups = emitters.groups().names;
   lights.seed = seedOf(settings, context);
   if (settings.directAsLights) addEmitters(emitters, settings, lights.seed, &lights);
   const int lastDepth = settings.maxDepth < 0 ? kMaxLightDepth : settings.maxDepth - 2;

@@ -55,6 +55,7 @@ void ParticleWalk::trace(uint32_t particle, ParticleBatch* out) const {
   if (!isFinite(power)) ++out->nonFinite;
   if (!(emittedPower > 0) || !isFinite(power)) return;
 
+  const uint16_t group = emitters_.groups().of(emitted->emitter);
   Ray ray = emitted->ray;
   for (int depth = 1; depth <= lastDepth_; ++depth) {
     ++out->rays;
@@ -65,7 +66,8 @@ void ParticleWalk::trace(uint32_t particle, ParticleBatch* out) const {
     power *= interiorTransmittance(emitters_.scene(), at, wi);
     const Bsdf bsdf = makeBsdf(emitters_.scene(), at, wi, settings_.specularLimit);
     const float uGaussian = random.next1D();
-    if (hasLobes(bsdf, LobeSet::rough)) leaveLights(at, bsdf, wi, power, depth, uGaussian, out);
+    if (hasLobes(bsdf, LobeSet::rough))
+      leaveLights(at, bsdf, wi, power, {depth, group}, uGaussian, out);
 
     const float uLobe = random.next1D();
     const Vec2f u = random.next2D();
@@ -92,11 +94,12 @@ void ParticleWalk::trace(uint32_t particle, ParticleBatch* out) const {
 
 void ParticleWalk::leaveOnEmitter(const EmittedRay& emitted, Rgb power, ParticleBatch* out) const {
   if (emitters_.scene().emitters[emitted.emitter].type != EmitterType::area) return;
-  addDiffuse(emitted.ray.o, emitted.ng, power * kInvPi, 0, out);
+  addDiffuse(emitted.ray.o, emitted.ng, power * kInvPi, {0, emitters_.groups().of(emitted.emitter)},
+             out);
 }
 
 void ParticleWalk::leaveLights(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power,
-                               int depth, float u, ParticleBatch* out) const {
+                               Place place, float u, ParticleBatch* out) const {
   // Light that arrives from one side by the shading normals and from the other in truth.
   const std::span frames(bsdf.frames, static_cast<size_t>(bsdf.frameCount));
   if (std::ranges::none_of(frames, [&](auto& f) { return arrivingShare(bsdf, f, wi) > 0; })) return;
@@ -104,19 +107,19 @@ void ParticleWalk::leaveLights(const SurfacePoint& at, const Bsdf& bsdf, Vec3f w
   const Vec3f side = dot(wi, bsdf.ng) > 0 ? bsdf.ng : -bsdf.ng;
   const size_t before = out->diffuse.size() + out->glossy.size();
   if (maxComponent(lobes.diffuse) > 0)
-    addDiffuse(offsetOrigin(at, side), side, power * lobes.diffuse * kInvPi, depth, out);
+    addDiffuse(offsetOrigin(at, side), side, power * lobes.diffuse * kInvPi, place, out);
   if (maxComponent(lobes.diffuseTransmitted) > 0)
-    addDiffuse(offsetOrigin(at, -side), -side, power * lobes.diffuseTransmitted * kInvPi, depth,
+    addDiffuse(offsetOrigin(at, -side), -side, power * lobes.diffuseTransmitted * kInvPi, place,
                out);
-  if (settings_.glossy) leaveGlossy(at, bsdf, lobes, power, depth, u, out);
+  if (settings_.glossy) leaveGlossy(at, bsdf, lobes, power, place, u, out);
   if (out->diffuse.size() + out->glossy.size() == before) ++out->dropped;
 }
 
 void ParticleWalk::leaveGlossy(const SurfacePoint& at, const Bsdf& bsdf, const LobeExpansion& lobes,
-                               Rgb power, int depth, float u, ParticleBatch* out) const {
+                               Rgb power, Place place, float u, ParticleBatch* out) const {
   if (settings_.everyGaussian) {
     for (int i = 0; i < lobes.count; ++i)
-      addGlossy(at, bsdf, lobes.gaussians[static_cast<size_t>(i)], power, depth, out);
+      addGlossy(at, bsdf, lobes.gaussians[static_cast<size_t>(i)], power, place, out);
     return;
   }
   float energies[LobeExpansion::kMaxGaussians], total = 0;
@@ -129,20 +132,22 @@ void ParticleWalk::leaveGlossy(const SurfacePoint& at, const Bsdf& bsdf, const L
     left -= energies[chosen++];
   while (energies[chosen] <= 0) --chosen;  // rounding may run past the last lobe with energy
   addGlossy(at, bsdf, lobes.gaussians[static_cast<size_t>(chosen)],
-            power * (total / energies[chosen]), depth, out);
+            power * (total / energies[chosen]), place, out);
 }
 
-void ParticleWalk::addDiffuse(Vec3f p, Vec3f n, Rgb intensity, int depth,
+void ParticleWalk::addDiffuse(Vec3f p, Vec3f n, Rgb intensity, Place place,
                               ParticleBatch* out) const {
   if (!isFinite(p) || !isFinite(n) || !isFinite(intensity)) {
     ++out->nonFinite;
   } else if (maxComponent(intensity) > 0) {
-    out->diffuse.push_back({p, intensity, encodeOctahedral(n), static_cast<uint32_t>(depth)});
+    out->diffuse.push_back(
+        {p, intensity, encodeOctahedral(n),
+         static_cast<uint32_t>(place.depth) | static_cast<uint32_t>(place.group) << 8});
   }
 }
 
 void ParticleWalk::addGlossy(const SurfacePoint& at, const Bsdf& bsdf, const GaussianLobe& lobe,
-                             Rgb power, int depth, ParticleBatch* out) const {
+                             Rgb power, Place place, ParticleBatch* out) const {
   const Vec3f n = dot(bsdf.ng, lobe.normal) > 0 ? bsdf.ng : -bsdf.ng;
   const float ratio =
       std::abs(dot(lobe.axis, n)) / std::max(1e-6f, std::abs(dot(lobe.axis, lobe.normal)));
@@ -153,7 +158,8 @@ void ParticleWalk::addGlossy(const SurfacePoint& at, const Bsdf& bsdf, const Gau
     ++out->nonFinite;
   } else if (maxComponent(intensity) > 0) {
     out->glossy.push_back(light);
-    out->glossyDepth.push_back(static_cast<uint8_t>(depth));
+    out->glossyDepth.push_back(static_cast<uint8_t>(place.depth));
+    out->glossyGroup.push_back(place.group);
   }
 }
 

@@ -17,6 +17,7 @@ struct ParticleBatch {
   std::vector<DiffuseLight> diffuse;
   std::vector<GlossyLight> glossy;
   std::vector<uint8_t> glossyDepth;  // parallel to glossy; diffuse lights carry theirs
+  std::vector<uint16_t> glossyGroup;
   uint64_t rays = 0, cut = 0, dropped = 0, nonFinite = 0;
 };
 
@@ -31,14 +32,18 @@ class ParticleWalk {
   int lastDepth() const { return lastDepth_; }
 
  private:
+  struct Place {  // of a light among the others
+    int depth;
+    uint16_t group;
+  };
   void leaveOnEmitter(const EmittedRay& emitted, Rgb power, ParticleBatch* out) const;
-  void leaveLights(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power, int depth,
+  void leaveLights(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power, Place place,
                    float u, ParticleBatch* out) const;
   void leaveGlossy(const SurfacePoint& at, const Bsdf& bsdf, const LobeExpansion& lobes, Rgb power,
-                   int depth, float u, ParticleBatch* out) const;
-  void addDiffuse(Vec3f p, Vec3f n, Rgb intensity, int depth, ParticleBatch* out) const;
+                   Place place, float u, ParticleBatch* out) const;
+  void addDiffuse(Vec3f p, Vec3f n, Rgb intensity, Place place, ParticleBatch* out) const;
   void addGlossy(const SurfacePoint& at, const Bsdf& bsdf, const GaussianLobe& lobe, Rgb power,
-                 int depth, ParticleBatch* out) const;
+                 Place place, ParticleBatch* out) const;
 
   const Tracer& tracer_;
   const EmitterSampler& emitters_;

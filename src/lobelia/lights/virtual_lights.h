@@ -16,7 +16,7 @@ struct OmniLight {
   uint32_t emitter;
 };
 // Irradiance on a plane facing it; direction points to where the light comes from. emitter: what
-// it stands for (of several environments, the first), 0xffffffff: unknown.
+// it stands for (of several environments of a light group, the first), 0xffffffff: unknown.
 struct DirectionalLight {
   Vec3f direction;
   Rgb irradiance;
@@ -50,6 +50,10 @@ struct VirtualLights {
   std::vector<DiffuseLight> diffuse;
   std::vector<GlossyLight> glossy;
   std::vector<uint32_t> diffuseDepthEnds, glossyDepthEnds;
+  // Light groups (LightGroups): their names, and the group of every light as an index into them;
+  // parallel to the lights, for diffuse lights in their tag. Empty: all lights are of group 0.
+  std::vector<std::string> groups;
+  std::vector<uint16_t> omniGroups, directionalGroups, glossyGroups;
   uint64_t sceneHash = 0;
   uint64_t seed = 0;
   uint64_t particles = 0;  // emitted

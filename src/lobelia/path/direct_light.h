@@ -45,8 +45,8 @@ inline Ray shadowRay(const LightQuery& q, const EmitterDirection& light) {
 // Light that emitters send to q, times f |cos| of the lobes in `lobes`: `count` emitter samples
 // whose mean it is, stratified over the choice of the emitter. `sampled`: the lobes among which the
 // one accompanying BSDF sample is drawn (MIS); pass withBsdf = false when there is none. u: three
-// uniform numbers. ask(i, ray, value): the i-th sample is worth `value`, a share of the mean, where
-// nothing blocks the ray; samples that are worth nothing are left out.
+// uniform numbers. ask(i, ray, value, emitter): the i-th sample, of this emitter, is worth `value`,
+// a share of the mean, where nothing blocks the ray; samples that are worth nothing are left out.
 template <class Ask>
 void sampleDirectLight(const EmitterSampler& emitters, const LightQuery& q, const Bsdf& bsdf,
                        Vec3f wo, LobeSet lobes, LobeSet sampled, bool withBsdf, Vec3f u, int count,
@@ -65,20 +65,23 @@ void sampleDirectLight(const EmitterSampler& emitters, const LightQuery& q, cons
     if (!light->delta && withBsdf) {
       value *= powerHeuristic(n * light->pdf, pdf(bsdf, wo, light->wi, sampled));
     }
-    ask(i, shadowRay(q, *light), value * step);
+    ask(i, shadowRay(q, *light), value * step, light->emitter);
   }
 }
 
-// The sum for one emitter sample, its shadow ray traced at once and counted.
-template <class Rays>
+// The sum for one emitter sample, its shadow ray traced at once and counted. add(value, emitter,
+// direction): what arrived, for callers that keep emitters apart.
+template <class Rays, class Add>
 Rgb sampleDirectLight(const Rays& tracer, const EmitterSampler& emitters, const LightQuery& q,
                       const Bsdf& bsdf, Vec3f wo, LobeSet lobes, LobeSet sampled, bool withBsdf,
-                      Vec3f u, uint64_t* shadowRays) {
+                      Vec3f u, uint64_t* shadowRays, const Add& add) {
   Rgb sum{};
   sampleDirectLight(emitters, q, bsdf, wo, lobes, sampled, withBsdf, u, 1,
-                    [&](int, const Ray& ray, Rgb value) {
+                    [&](int, const Ray& ray, Rgb value, uint32_t emitter) {
                       ++*shadowRays;
-                      if (!tracer.occluded(ray)) sum += value;
+                      if (tracer.occluded(ray)) return;
+                      sum += value;
+                      add(value, emitter, ray.d);
                     });
   return sum;
 }

@@ -7,6 +7,7 @@
 // is no tree over two lights.
 #include "lobelia/path/emitter_sampling.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "lobelia/base/random.h"
@@ -29,6 +30,8 @@ struct EmitterSampler::Impl {
   std::vector<float> uniformShare;  // uniformProbability times the table's probabilities
   float treeProbability = 0, uniformProbability = 0;
   AliasTable rays;  // finite lights, then infinite ones, by flux
+  LightGroups groups;
+  bool mixedSky = false;  // are the emitters that escaping rays see of several groups?
 
   Impl(const Scene& s, Bounds3f bounds)
       : scene(s),
@@ -43,6 +46,9 @@ struct EmitterSampler::Impl {
     for (size_t i = 0; i < infinite.size(); ++i)
       fluxes.push_back(static_cast<float>(infinite[i].flux));
     rays = AliasTable(fluxes);
+    groups = lightGroups(s);
+    for (const uint32_t e : infinite.seen())
+      mixedSky |= groups.of(e) != groups.of(infinite.seen().front());
   }
 
   void choose(double finiteFlux) {
@@ -144,6 +150,35 @@ Rgb EmitterSampler::emitted(const SurfacePoint& hit, Vec3f wo) const {
 
 Rgb EmitterSampler::escaped(Vec3f d) const { return impl_->infinite.escaped(d); }
 Rgb EmitterSampler::environment(Vec3f d) const { return impl_->infinite.environment(d); }
+
+Rgb EmitterSampler::environment(Vec3f d, size_t group) const {
+  Rgb sum{};
+  for (const uint32_t e : impl_->infinite.seen())
+    if (impl_->scene.emitters[e].type != EmitterType::sun && impl_->groups.of(e) == group)
+      sum += impl_->infinite.escaped(d, e);
+  return sum;
+}
+
+const LightGroups& EmitterSampler::groups() const { return impl_->groups; }
+
+void EmitterSampler::addByGroup(uint32_t emitter, Vec3f d, Rgb value, Rgb* sums) const {
+  const Impl& impl = *impl_;
+  const std::vector<uint32_t>& seen = impl.infinite.seen();
+  const bool sky =
+      emitter == kEscaped || std::find(seen.begin(), seen.end(), emitter) != seen.end();
+  if (!sky || !impl.mixedSky) {
+    const uint32_t one = emitter == kEscaped && !seen.empty() ? seen.front() : emitter;
+    sums[impl.groups.of(one)] += value;
+    return;
+  }
+  const Rgb all = impl.infinite.escaped(d);
+  for (const uint32_t e : seen) {
+    const Rgb part = impl.infinite.escaped(d, e);
+    Rgb& sum = sums[impl.groups.of(e)];
+    for (int c = 0; c < 3; ++c)
+      if (all[c] != 0) sum[c] += value[c] * (part[c] / all[c]);
+  }
+}
 
 std::optional<EmittedRay> EmitterSampler::sampleRay(float uSelect, Vec2f uPosition,
                                                     Vec2f uDirection) const {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lobelia/base/sampling.h"
+#include "lobelia/scene/light_groups.h"
 #include "lobelia/trace/tracer.h"
 
 namespace lobelia {
@@ -52,6 +53,15 @@ class EmitterSampler {
   // environments alone.
   Rgb escaped(Vec3f d) const;
   Rgb environment(Vec3f d) const;
+  // The same of the environments of one light group.
+  Rgb environment(Vec3f d, size_t group) const;
+
+  const LightGroups& groups() const;
+  // Adds `value`, light that an emitter sends along d (towards it), to its group's sum:
+  // sums[groups().size()]. kEscaped: what a ray that escapes sees; of several emitters there
+  // (environments, suns; a sample of one of them holds all) each group gets its share.
+  static constexpr uint32_t kEscaped = 0xffffffffu;
+  void addByGroup(uint32_t emitter, Vec3f d, Rgb value, Rgb* sums) const;
 
   std::optional<EmittedRay> sampleRay(float uSelect, Vec2f uPosition, Vec2f uDirection) const;
   double power() const;  // total flux (luminance) of what sampleRay draws from

@@ -46,7 +46,10 @@ void InfiniteLights::add(const Scene& scene, uint32_t e) {
           disc ? 2.0 * static_cast<double>(kPi) * static_cast<double>(light.oneMinusCos) : 1.0;
       light.flux = disk() * solidAngle * static_cast<double>(std::max(0.f, luminance(light.value)));
       light.emitter = e;
-      if (disc && !(light.value == Rgb{})) discs_.push_back(light);
+      if (disc && !(light.value == Rgb{})) {
+        discs_.push_back(light);
+        seen_.push_back(e);
+      }
       break;
     }
     case EmitterType::constant:
@@ -56,7 +59,11 @@ void InfiniteLights::add(const Scene& scene, uint32_t e) {
       light.emitter = e;
       light.flux = disk() * environment.integral();
       light.environment = environments_.size();
-      if (light.flux != 0) environments_.push_back(std::move(environment));
+      if (light.flux != 0) {
+        environments_.push_back(std::move(environment));
+        environmentEmitters_.push_back(e);
+        seen_.push_back(e);
+      }
       break;
     }
     default:
@@ -75,6 +82,15 @@ Rgb InfiniteLights::escaped(Vec3f d) const {
   Rgb sum = environment(d);
   for (const InfiniteLight& disc : discs_)
     if (contains(disc, d)) sum += disc.value;
+  return sum;
+}
+
+Rgb InfiniteLights::escaped(Vec3f d, uint32_t emitter) const {
+  Rgb sum{};
+  for (size_t i = 0; i < environments_.size(); ++i)
+    if (environmentEmitters_[i] == emitter) sum += environments_[i].radiance(d);
+  for (const InfiniteLight& disc : discs_)
+    if (disc.emitter == emitter && contains(disc, d)) sum += disc.value;
   return sum;
 }
 

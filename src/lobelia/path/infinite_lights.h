@@ -37,6 +37,9 @@ class InfiniteLights {
 
   Rgb environment(Vec3f d) const;  // radiance from direction d, without the discs of suns
   Rgb escaped(Vec3f d) const;      // and with them
+  // The emitters that rays which escape see, and the part of escaped() that is one's.
+  const std::vector<uint32_t>& seen() const { return seen_; }
+  Rgb escaped(Vec3f d, uint32_t emitter) const;
   float pdfEscaped(Vec3f n, Vec3f d) const;
   std::optional<EmitterDirection> sample(const InfiniteLight& light, Vec3f n, Vec2f u) const;
   // A ray into the scene, its flux over the density of the ray (selection not included).
@@ -50,6 +53,7 @@ class InfiniteLights {
   Vec3f centre_;
   float radius_ = 1;
   std::vector<EnvironmentSampler> environments_;
+  std::vector<uint32_t> environmentEmitters_, seen_;
   std::vector<InfiniteLight> discs_;   // those seen; they need not be among the lights
   std::vector<InfiniteLight> lights_;  // those sampled
 };

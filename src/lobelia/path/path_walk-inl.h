@@ -162,8 +162,11 @@ void PathWalk<Rays>::meet(PathState& path, Rgb radiance, const SurfacePoint* hit
   if (radiance == Rgb{} || (path.depth == 1 && settings_.hideEmitters)) return;
   radiance *= emissionWeight(emitters_, path.from, hit, path.ray.d, path.pdfFrom, path.deltaFrom,
                              path.samplesFrom);
-  path.result.direct += path.metDirect * radiance;
-  path.result.indirect += path.metIndirect * radiance;
+  const Rgb direct = path.metDirect * radiance, indirect = path.metIndirect * radiance;
+  path.result.direct += direct;
+  path.result.indirect += indirect;
+  path.groups.add(hit ? hit->emitter.index : EmitterSampler::kEscaped, path.ray.d, direct,
+                  indirect);
 }
 
 template <class Rays>
@@ -225,9 +228,10 @@ void PathWalk<Rays>::light(PathState& path, const Bsdf& bsdf, Vec3f wo, Shadows&
   const Vec2f place = path.random.next2D();
   sampleDirectLight(emitters_, path.from, bsdf, wo, LobeSet::all, LobeSet::all, true,
                     {select, place.x, place.y}, path.samplesFrom,
-                    [&](int sample, const Ray& ray, Rgb value) {
+                    [&](int sample, const Ray& ray, Rgb value, uint32_t emitter) {
+                      ++path.shadowRays;
                       shadows.push_back({ray, &path, sample, path.chain != Rgb{},
-                                         path.chain * value, path.indirect * value});
+                                         path.chain * value, path.indirect * value, emitter});
                     });
 }
 

@@ -60,6 +60,8 @@ struct PathState {
   uint32_t pixel;
   PathRandom random;
   PathResult result;
+  GroupSums groups;
+  uint32_t shadowRays = 0;
   Rgb chain{1.f}, indirect{};         // throughput up to the ray's start
   Rgb metDirect{1.f}, metIndirect{};  // factor of emission that the ray meets
   LightQuery from;                    // where the ray starts, and how it was drawn
@@ -77,7 +79,11 @@ struct PathShadow {
   int sample;  // which of the vertex' emitter samples
   bool seen;   // by the eye, directly or by sharp lobes
   Rgb direct, indirect;
-  void add() const { path->result.direct += direct, path->result.indirect += indirect; }
+  uint32_t emitter;
+  void add() const {
+    path->result.direct += direct, path->result.indirect += indirect;
+    path->groups.add(emitter, ray.d, direct, indirect);
+  }
 };
 
 // Rays: Tracer, or what answers the same queries (benchmarks record them). Members are defined in

@@ -48,6 +48,7 @@ struct EyeWalk::State {
   EyeCounts* counts;
   EyeSample result{};
   std::vector<EyeSegment> open{};  // segments still to be followed
+  std::vector<Rgb> arrived{};      // by light group, on its way to addLight(); may be empty
 };
 
 struct EyeWalk::Vertex {
@@ -58,8 +59,13 @@ struct EyeWalk::Vertex {
 };
 
 EyeWalk::EyeWalk(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
-                 const EyeSettings& settings, uint64_t seed)
-    : tracer_(tracer), emitters_(emitters), camera_(camera), settings_(settings), seed_(seed) {}
+                 const EyeSettings& settings, uint64_t seed, bool byGroup)
+    : tracer_(tracer),
+      emitters_(emitters),
+      camera_(camera),
+      settings_(settings),
+      seed_(seed),
+      byGroup_(byGroup) {}
 
 EyeSample EyeWalk::trace(int x, int y, uint32_t pixel, Receivers* receivers,
                          EyeCounts* counts) const {
@@ -67,6 +73,10 @@ EyeSample EyeWalk::trace(int x, int y, uint32_t pixel, Receivers* receivers,
       (static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32) | static_cast<uint32_t>(x);
   State state{Sampler(seed_, stream, static_cast<uint32_t>(settings_.sample)), pixel, receivers,
               counts};
+  if (byGroup_) {
+    state.result.groups.resize(emitters_.groups().size());
+    state.arrived.resize(emitters_.groups().size());
+  }
   float filterWeight = 1;
   const Vec2f offset =
       sampleFilter(camera_.filter, camera_.filterRadius, state.random.next2D(), &filterWeight);
@@ -134,16 +144,26 @@ void EyeWalk::addEmission(const EyeSegment& segment, const SurfacePoint* hit, Rg
   const float weight = segment.pdf > 0 ? emissionWeight(emitters_, segment.origin, hit,
                                                         segment.ray.d, segment.pdf, false)
                                        : 1;
-  addLight(segment, segment.throughput * radiance * weight, state);
+  if (byGroup_)
+    emitters_.addByGroup(hit ? hit->emitter.index : EmitterSampler::kEscaped, segment.ray.d,
+                         radiance * weight, state->arrived.data());
+  addLight(segment, segment.throughput * radiance * weight, segment.throughput, state);
 }
 
-void EyeWalk::addLight(const EyeSegment& segment, Rgb light, State* state) const {
-  if (!isFinite(light)) {
+void EyeWalk::addLight(const EyeSegment& segment, Rgb light, Rgb factor, State* state) const {
+  const bool finite = isFinite(light);
+  if (finite) {
+    (segment.direct ? state->result.direct : state->result.indirect) += light;
+    if (segment.connection) state->result.specular += light;
+  } else {
     ++state->counts->nonFinite;
-    return;
   }
-  (segment.direct ? state->result.direct : state->result.indirect) += light;
-  if (segment.connection) state->result.specular += light;
+  const bool shown =
+      finite && settings_.component != (segment.direct ? Component::indirect : Component::direct);
+  for (size_t g = 0; g < state->arrived.size(); ++g) {
+    if (shown) state->result.groups[g] += factor * state->arrived[g];
+    state->arrived[g] = Rgb{};
+  }
 }
 
 // Every sample is weighted as if it were the only one beside the BSDF sample: the weights still sum
@@ -156,8 +176,13 @@ Rgb EyeWalk::nextEvent(const Vertex& v, LobeSet set, int sampleCount, State* sta
     const float uSelect = state->random.next1D();
     const Vec2f u = state->random.next2D();
     sum += sampleDirectLight(tracer_, emitters_, query, v.bsdf, v.wo, set, set, true,
-                             {uSelect, u.x, u.y}, &state->counts->shadowRays);
+                             {uSelect, u.x, u.y}, &state->counts->shadowRays,
+                             [&](Rgb value, uint32_t emitter, Vec3f d) {
+                               if (byGroup_)
+                                 emitters_.addByGroup(emitter, d, value, state->arrived.data());
+                             });
   }
+  for (Rgb& value : state->arrived) value /= static_cast<float>(sampleCount);
   return sum / static_cast<float>(sampleCount);
 }
 
@@ -167,7 +192,7 @@ void EyeWalk::receive(const EyeSegment& segment, const Vertex& v, State* state) 
   next.direct = segment.kind == EyeSegment::Kind::eye;
   next.connection = !next.direct;
   const Rgb light = nextEvent(v, LobeSet::rough, settings_.directSamples, state);
-  addLight(next, segment.throughput * light, state);
+  addLight(next, segment.throughput * light, segment.throughput, state);
   if (mayEnd(v.depth + 2) || settings_.directSamples == 0) record(segment, v, state);
   // The mean of several samples: connections are few and bright. Their weights against the emitter
   // samples stay those of one sample each; they still sum to one.
@@ -213,7 +238,8 @@ void EyeWalk::extend(const EyeSegment& segment, const Vertex& v, State* state) c
       segment.kind == EyeSegment::Kind::eye ? EyeSegment::Kind::eye : EyeSegment::Kind::chain;
   next.direct = next.kind == EyeSegment::Kind::eye;
   next.connection = !next.direct;
-  addLight(next, segment.throughput * nextEvent(v, LobeSet::sharp, 1, state), state);
+  const Rgb light = nextEvent(v, LobeSet::sharp, 1, state);
+  addLight(next, segment.throughput * light, segment.throughput, state);
   scatter(segment, v, LobeSet::sharp, next, state);
 }
 

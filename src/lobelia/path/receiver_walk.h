@@ -20,7 +20,8 @@ struct EyeSample {
   Rgb albedo;
   Vec3f normal;
   float depth = 0;
-  float weight = 0;  // of the film sample
+  float weight = 0;         // of the film sample
+  std::vector<Rgb> groups;  // direct + indirect by light group; empty when not asked for
 };
 
 struct EyeCounts {
@@ -48,8 +49,9 @@ struct EyeSegment {
 
 class EyeWalk {
  public:
+  // byGroup: fill EyeSample::groups?
   EyeWalk(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
-          const EyeSettings& settings, uint64_t seed);
+          const EyeSettings& settings, uint64_t seed, bool byGroup = false);
 
   // Pixel (x, y) of the full film; `pixel` is its index in the data window. Receivers are appended.
   EyeSample trace(int x, int y, uint32_t pixel, Receivers* receivers, EyeCounts* counts) const;
@@ -61,8 +63,9 @@ class EyeWalk {
   // hit: null when the ray escaped.
   void addEmission(const EyeSegment& segment, const SurfacePoint* hit, Rgb radiance,
                    State* state) const;
-  // Adds to the layers that the segment's flags name.
-  void addLight(const EyeSegment& segment, Rgb light, State* state) const;
+  // Adds to the layers that the segment's flags name. Clears State::arrived, light by group, which
+  // times `factor` is `light`.
+  void addLight(const EyeSegment& segment, Rgb light, Rgb factor, State* state) const;
   void receive(const EyeSegment& segment, const Vertex& vertex, State* state) const;
   void extend(const EyeSegment& segment, const Vertex& vertex, State* state) const;
   Rgb nextEvent(const Vertex& vertex, LobeSet set, int sampleCount, State* state) const;
@@ -79,6 +82,7 @@ class EyeWalk {
   const Camera& camera_;
   const EyeSettings& settings_;
   uint64_t seed_;
+  bool byGroup_;
 };
 
 }  // namespace lobelia

@@ -56,26 +56,36 @@ std::vector<Tile> chosenTiles(const PixelSet& set, int width, int y0, int y1) {
 
 // The film's layers that the pass adds to; null when absent.
 struct Layers {
-  explicit Layers(Film& film)
+  Layers(Film& film, const LightGroups& lightGroups)
       : direct(find(film, "direct")),
         indirect(find(film, "indirect")),
         specular(find(film, "specular")),
         albedo(find(film, "albedo")),
         normal(find(film, "normal")),
-        depth(find(film, "depth")) {}
+        depth(find(film, "depth")),
+        cost(find(film, "cost")) {
+    for (size_t g = 0; g < lightGroups.size(); ++g) {
+      groups.push_back(find(film, lightGroups.layer(g)));
+      byGroup |= groups.back() != nullptr;
+    }
+  }
 
+  void addCost(uint32_t pixel, float rays) const { add(cost, pixel, Rgb(rays)); }
   void add(uint32_t pixel, const EyeSample& s) const {
     add(direct, pixel, s.direct);
     add(indirect, pixel, s.indirect);
     add(specular, pixel, s.specular);
+    for (size_t g = 0; g < s.groups.size(); ++g) add(groups[g], pixel, s.groups[g]);
     if (!s.hit) return;
     add(albedo, pixel, s.albedo * s.weight);
     add(normal, pixel, s.normal * s.weight);
     add(depth, pixel, Rgb(s.depth * s.weight));
   }
 
+  bool byGroup = false;
+
  private:
-  static Layer* find(Film& film, const char* name) {
+  static Layer* find(Film& film, const std::string& name) {
     const auto it = film.layers.find(name);
     return it == film.layers.end() ? nullptr : &it->second;
   }
@@ -85,7 +95,8 @@ struct Layers {
       layer->values[static_cast<size_t>(pixel) * static_cast<size_t>(layer->channels) +
                     static_cast<size_t>(c)] += value[c];
   }
-  Layer *direct, *indirect, *specular, *albedo, *normal, *depth;
+  Layer *direct, *indirect, *specular, *albedo, *normal, *depth, *cost;
+  std::vector<Layer*> groups;
 };
 
 Receivers concatenate(std::vector<Tile>& tiles) {
@@ -116,8 +127,8 @@ Receivers traceReceivers(const Tracer& tracer, const EmitterSampler& emitters, c
                          const EyeSettings& settings, int y0, int y1, Film& film,
                          Context& context) {
   const StageTimer timer(context, "receivers");
-  const EyeWalk walk(tracer, emitters, camera, settings, context.seed);
-  const Layers layers(film);
+  const Layers layers(film, emitters.groups());
+  const EyeWalk walk(tracer, emitters, camera, settings, context.seed, layers.byGroup);
   const auto width = static_cast<uint32_t>(film.width);
   std::vector<Tile> tiles = settings.pixels.pixels.empty()
                                 ? allTiles(film.width, y0, y1)
@@ -128,7 +139,10 @@ Receivers traceReceivers(const Tracer& tracer, const EmitterSampler& emitters, c
     for (const uint32_t pixel : tile.pixels) {
       const int x = film.x0 + static_cast<int>(pixel % width),
                 y = film.y0 + static_cast<int>(pixel / width);
+      const uint64_t before = tile.counts.pathRays + tile.counts.shadowRays;
       layers.add(pixel, walk.trace(x, y, pixel, &tile.receivers, &tile.counts));
+      const uint64_t rays = tile.counts.pathRays + tile.counts.shadowRays - before;
+      layers.addCost(pixel, static_cast<float>(rays) / static_cast<float>(settings.sampleCount));
     }
     std::stable_sort(
         tile.receivers.points.begin(), tile.receivers.points.end(),

@@ -39,12 +39,14 @@ struct EyeSettings {
   int directSamples = 4;      // emitter samples per receiver; 0: none (--direct lights)
   int connectionSamples = 4;  // samples of the rough lobes, per receiver, for specular connections
   bool hideEmitters = false;
+  Component component = Component::all;  // what the layers of light groups hold
   PixelSet pixels;
 };
 
 // One sample of every pixel of the rows [y0, y1) of the data window (or of the chosen pixels in
 // them). Adds emission, direct light (next-event estimation with MIS) and specular connections to
-// film's layers "direct" and "indirect" (and "specular" when present), and returns the receivers
+// film's layers "direct" and "indirect" (and, when present, to "specular", LightGroups::layer() of
+// every group, and "cost": rays traced, as a mean over all samples), and returns the receivers
 // whose indirect light remains to be gathered.
 Receivers traceReceivers(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                          const EyeSettings& settings, int y0, int y1, Film& film, Context& context);
