@@ -64,6 +64,20 @@ const std::map<std::string, CommandTexts>& texts() {
        {"Writes any readable scene as Mitsuba XML with PLY meshes and image files beside it.",
         {{"FOLDER/scene.xml", "The scene"}},
         {{"lobelia convert scene.glb -o scene", "Convert glTF to Mitsuba XML"}}}},
+      {"relight",
+       {"Multiplies the light groups of a picture rendered with --aov groups by factors and "
+        "colours "
+        "and writes their sum.",
+        {{"*.exr", "The new picture with its groups, which can be relit again"},
+         {"*.png", "Tone-mapped"}},
+        {{"lobelia relight room.exr --group window=0.2 --group lamp=3,1,0.8,0.6 -o evening.png",
+          "Dim the window, brighten and warm the lamp"}}}},
+      {"show",
+       {"Writes one layer of a picture as PNG, tone-mapped or in false colours (cubehelix), and "
+        "prints which values these begin and end at.",
+        {{"*.png", "The layer"}},
+        {{"lobelia show kitchen.exr --layer cost --false-colour -o heat.png",
+          "Where the rays of a render with --aov cost went"}}}},
       {"bench",
        {"Runs a study and prints its tables as Markdown, as they stand in docs/performance.md.",
         {},

@@ -17,6 +17,12 @@ std::string withoutCitation(std::string_view description) {
   return std::string(description.substr(0, description.find(" [")));
 }
 
+// To the nearest thousand, as tessellation differs by detail anyway.
+std::string roughly(uint64_t triangles) { return fmt::format("{},000", (triangles + 500) / 1000); }
+
+// The Cornell box is square; the other scenes' cameras are made for 4:3.
+const char* size(std::string_view name) { return name == "cornell" ? "360x360" : "480x360"; }
+
 }  // namespace
 
 std::string gallery() {
@@ -28,9 +34,9 @@ std::string gallery() {
       continue;
     }
     pictures += fmt::format(
-        "\n## {0}\n\n{1}; {2} triangles.\n\n![{1}](gallery/{0}.jpg)\n\n"
-        "    lobelia render {0} --size 480x360 --spp 64 --num-lights 256 -o {0}.png\n",
-        name, withoutCitation(scene.description), scene.triangles);
+        "\n## {0}\n\n{1}; about {2} triangles.\n\n![{1}](gallery/{0}.jpg)\n\n"
+        "    lobelia render {0} --size {3} --spp 64 --num-lights 256 -o {0}.png\n",
+        name, withoutCitation(scene.description), roughly(scene.triangles), size(name));
   }
   return fmt::format(
       "# Gallery\n\n"
