@@ -9,6 +9,7 @@
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/render_frame.h"
+#include "lobelia/app/replay.h"
 #include "lobelia/app/signals.h"
 #include "lobelia/base/parallel.h"
 
@@ -31,7 +32,7 @@ void requireLightFiles(const RenderOptions& options) {
 
 // The first frame's statistics are those of loading, too.
 ExitCode renderUntilCancelled(const RenderOptions& options, const std::string& commandLine,
-                              Console& console, Context& context) {
+                              bool replayAll, Console& console, Context& context) {
   int64_t start = nanosecondsNow();
   const Scene scene = loadScene(options.scene, context);
   const std::vector<Frame> frames = planFrames(scene, options);
@@ -42,6 +43,10 @@ ExitCode renderUntilCancelled(const RenderOptions& options, const std::string& c
   if (emitters.empty()) context.warning("the scene has no light; the picture will be black");
 
   FrameRun run{scene, tracer, emitters, commandLine, display ? &*display : nullptr, {}, {}};
+  if (!options.replay.empty()) {
+    replay(frames.front(), run, replayAll, context);
+    return signalExitCode();
+  }
   renderFrame(frames.front(), start, run, context);
   for (size_t i = 1; i < frames.size() && !context.cancelled(); ++i) {
     start = nanosecondsNow();
@@ -62,6 +67,7 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
   requireLightFiles(options);
   requireLightLayers(options);
   requireFrames(options);
+  requireReplay(options);
   if (!options.display.empty()) parseViewerAddress(options.display);
   const ThreadLimit threads(global.threads);
   Console console(global.verbosity());
@@ -69,7 +75,7 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
   context.seed = options.seed;
   const SignalGuard signals(context);
   try {
-    return renderUntilCancelled(options, commandLine, console, context);
+    return renderUntilCancelled(options, commandLine, global.verbose, console, context);
   } catch (const Cancelled&) {
     context.warning("stopped while loading the scene: there is no picture yet, none is written");
     return signalExitCode();

@@ -14,17 +14,17 @@
 namespace lobelia::app {
 namespace {
 
-PathSettings pathSettings(const Scene& scene, const Camera& camera, const PixelSet& pixels,
-                          int maxDepth, const RenderOptions& options) {
-  PathSettings settings;
-  settings.spp = options.spp > 0 ? options.spp : camera.spp > 0 ? camera.spp : 64;
-  settings.maxDepth = maxDepth;
-  settings.specularLimit = options.specularLimit;
-  settings.component = componentOf(options);
-  settings.timeLimit = options.timeLimit;
-  settings.hideEmitters = scene.hideEmitters;
-  settings.pixels = pixels;
-  return settings;
+// The switch that replays the first pixel known to have lost a sample, or to hold such a value.
+std::string replayHint(const Film& film, const Context& context) {
+  size_t pixel = static_cast<size_t>(context.statistics.value("first_nonfinite_pixel"));
+  for (size_t i = 0; i < film.pixelCount() && pixel == 0; ++i) {
+    if (!isFinite(film.rgb(i))) pixel = i + 1;
+  }
+  if (pixel == 0) return "";
+  const size_t width = static_cast<size_t>(film.width);
+  return fmt::format("; --replay {},{} shows the first",
+                     (pixel - 1) % width + static_cast<size_t>(film.x0),
+                     (pixel - 1) / width + static_cast<size_t>(film.y0));
 }
 
 void setMetadata(Film& film, const Scene& scene, const RenderOptions& options,
@@ -37,6 +37,19 @@ void setMetadata(Film& film, const Scene& scene, const RenderOptions& options,
 }
 
 }  // namespace
+
+PathSettings pathSettings(const Scene& scene, const Camera& camera, const PixelSet& pixels,
+                          int maxDepth, const RenderOptions& options) {
+  PathSettings settings;
+  settings.spp = options.spp > 0 ? options.spp : camera.spp > 0 ? camera.spp : 64;
+  settings.maxDepth = maxDepth;
+  settings.specularLimit = options.specularLimit;
+  settings.component = componentOf(options);
+  settings.timeLimit = options.timeLimit;
+  settings.hideEmitters = scene.hideEmitters;
+  settings.pixels = pixels;
+  return settings;
+}
 
 bool usesVirtualLights(const RenderOptions& options) {
   return options.lights != "path" && options.lights != "light";
@@ -74,7 +87,7 @@ void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& cont
   context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);
 
   if (const uint64_t bad = countNonFinite(film) + context.statistics.count("nonfinite"); bad > 0) {
-    context.warning(fmt::format("{} non-finite values", bad));
+    context.warning(fmt::format("{} non-finite values{}", bad, replayHint(film, context)));
   }
   setMetadata(film, scene, options, run.commandLine, context.statistics.seconds("total"));
   if (options.frames > 0) film.metadata["lobelia:frame"] = std::to_string(frame.number);

@@ -8,6 +8,7 @@
 #include "lobelia/app/frames.h"
 #include "lobelia/film/film.h"
 #include "lobelia/lights/light_pass.h"
+#include "lobelia/path/path_tracer.h"
 
 namespace lobelia::app {
 
@@ -22,6 +23,9 @@ struct FrameRun {
   std::optional<VirtualLights> lights;  // the first set
 };
 
+// Of the path and the light tracer.
+PathSettings pathSettings(const Scene& scene, const Camera& camera, const PixelSet& pixels,
+                          int maxDepth, const RenderOptions& options);
 bool usesVirtualLights(const RenderOptions& options);
 // start: when work for this frame began (its statistics' total). When cancelled, what there is gets
 // written.

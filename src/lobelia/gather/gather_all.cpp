@@ -149,6 +149,13 @@ size_t tilePoints(size_t points) {
   return size;
 }
 
+bool wanted(const Receivers& receivers, size_t begin, size_t end, const GatherSettings& settings) {
+  if (settings.onlyPixel == GatherSettings::kAllPixels) return true;
+  return std::any_of(receivers.points.begin() + static_cast<ptrdiff_t>(begin),
+                     receivers.points.begin() + static_cast<ptrdiff_t>(end),
+                     [&](const ReceiverPoint& r) { return r.pixel == settings.onlyPixel; });
+}
+
 }  // namespace
 
 void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,
@@ -170,6 +177,7 @@ void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLi
   std::atomic<size_t> done{0};
   parallelFor(tiles, 1, [&](size_t i) {
     if (context.cancelled()) return;
+    if (!wanted(receivers, i * size, std::min(points, (i + 1) * size), settings)) return;
     Tally tally;
     tileGather.run(i * size, std::min(points, (i + 1) * size), radiance, &tally);
     rays += tally.rays;

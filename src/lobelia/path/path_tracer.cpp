@@ -93,6 +93,9 @@ class PathPasses {
       }
     }
     save();
+    if (firstBad_ != PathCounts{}.firstBad) {
+      context_.statistics.setValue("first_nonfinite_pixel", 1.0 + firstBad_);
+    }
     return complete(settings_.spp);
   }
 
@@ -218,6 +221,9 @@ class PathPasses {
     context_.statistics.addCount("path_rays", counts.pathRays);
     context_.statistics.addCount("shadow_rays", counts.shadowRays);
     context_.statistics.addCount("nonfinite", counts.nonFinite);
+    uint32_t least = firstBad_;
+    while (counts.firstBad < least && !firstBad_.compare_exchange_weak(least, counts.firstBad)) {
+    }
   }
 
   void show(const std::vector<uint32_t>& tile) const {
@@ -307,6 +313,7 @@ class PathPasses {
   std::vector<GuideSum> guides_;
   const int64_t start_;
   std::atomic<int64_t> reported_{0};
+  std::atomic<uint32_t> firstBad_{0xffffffffu};  // PathCounts
 };
 
 }  // namespace

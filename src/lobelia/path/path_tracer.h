@@ -8,6 +8,7 @@
 namespace lobelia {
 
 class Checkpoints;
+class PathObserver;
 
 enum class Component : uint8_t { all, direct, indirect };
 
@@ -46,6 +47,7 @@ struct PathSettings {
   bool hideEmitters = false;
   PixelSet pixels;
   Checkpoints* checkpoints = nullptr;  // where to save the state and to go on from; null: nowhere
+  PathObserver* observer = nullptr;    // who is told what paths do (path/path_observer.h)
   FilmPreview* preview = nullptr;      // who looks on; null: nobody
 };
 
@@ -53,7 +55,8 @@ struct PathSettings {
 // (variance of the mean), LightGroups::layer() of every group (their sum is the picture) and "cost"
 // (rays traced per sample) that film already has to film. Counts "path_rays", "shadow_rays",
 // "nonfinite" in the context's statistics. Same seed, same pixels for any number of threads. False
-// when stopped before all samples were added.
+// when stopped before all samples were added. Sets "first_nonfinite_pixel" to 1 + the smallest
+// pixel with such a path.
 bool renderPath(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                 const PathSettings& settings, Film& film, Context& context);
 

@@ -1,6 +1,7 @@
 // The path tracer's loop, for any answerer of ray queries.
 #pragma once
 
+#include "lobelia/path/path_observer.h"
 #include "lobelia/path/path_walk.h"
 #include "lobelia/trace/flush_denormals.h"
 
@@ -77,7 +78,10 @@ void PathWalk<Rays>::traceSome(std::span<PathState> paths, Shadows& shadows,
     traceShadows(shadows, counts);
     count = left;
   }
-  for (PathState& path : paths) finish(path.result, counts);
+  for (PathState& path : paths) {
+    if (settings_.observer) settings_.observer->ended(path);
+    finish(path, counts);
+  }
 }
 
 // Where the run of equal pixels that starts at `first` ends.
@@ -116,7 +120,7 @@ void PathWalk<Rays>::traceShadows(const Shadows& shadows, PathCounts& counts) co
     if (shadow.seen) {
       seen.push_back(&shadow);
     } else if (!tracer_.occluded(shadow.ray)) {
-      shadow.add();
+      lit(shadow);
     }
   }
   for (size_t i = 0, end; i < seen.size(); i = end) {
@@ -146,15 +150,21 @@ void PathWalk<Rays>::tracePixel(std::span<const PathShadow* const> shadows) cons
 template <class Rays>
 void PathWalk<Rays>::tracePacket(std::span<const PathShadow* const> shadows) const {
   if (shadows.size() == 1) {
-    if (!tracer_.occluded(shadows[0]->ray)) shadows[0]->add();
+    if (!tracer_.occluded(shadows[0]->ray)) lit(*shadows[0]);
     return;
   }
   ShadowPacket packet{};
   for (size_t i = 0; i < shadows.size(); ++i) packet.set(static_cast<int>(i), shadows[i]->ray);
   const uint32_t visible = tracer_.visible(packet, true);
   for (size_t i = 0; i < shadows.size(); ++i) {
-    if ((visible >> i & 1) != 0) shadows[i]->add();
+    if ((visible >> i & 1) != 0) lit(*shadows[i]);
   }
+}
+
+template <class Rays>
+void PathWalk<Rays>::lit(const PathShadow& shadow) const {
+  shadow.add();
+  if (settings_.observer) settings_.observer->lit(shadow);
 }
 
 template <class Rays>
@@ -162,6 +172,8 @@ void PathWalk<Rays>::meet(PathState& path, Rgb radiance, const SurfacePoint* hit
   if (radiance == Rgb{} || (path.depth == 1 && settings_.hideEmitters)) return;
   radiance *= emissionWeight(emitters_, path.from, hit, path.ray.d, path.pdfFrom, path.deltaFrom,
                              path.samplesFrom);
+  if (settings_.observer)
+    settings_.observer->met(path, path.metDirect * radiance, path.metIndirect * radiance);
   const Rgb direct = path.metDirect * radiance, indirect = path.metIndirect * radiance;
   path.result.direct += direct;
   path.result.indirect += indirect;
@@ -192,6 +204,7 @@ bool PathWalk<Rays>::advance(PathState& path, Shadows& shadows) const {
   }
 
   const Bsdf bsdf = makeBsdf(emitters_.scene(), at, wo, settings_.specularLimit);
+  if (settings_.observer) settings_.observer->vertex(path, at, bsdf);
   if (path.depth == 1) {
     path.result.albedo = albedo(bsdf, wo);
     path.result.normal = bsdf.frames[0].n;
@@ -236,11 +249,13 @@ void PathWalk<Rays>::light(PathState& path, const Bsdf& bsdf, Vec3f wo, Shadows&
 }
 
 template <class Rays>
-void PathWalk<Rays>::finish(PathResult& result, PathCounts& counts) const {
+void PathWalk<Rays>::finish(PathState& path, PathCounts& counts) const {
+  PathResult& result = path.result;
   if (settings_.component == Component::direct) result.indirect = {};
   if (settings_.component == Component::indirect) result.direct = {};
   if (isFinite(result.direct) && isFinite(result.indirect)) return;
   ++counts.nonFinite;
+  counts.firstBad = std::min(counts.firstBad, path.pixel);
   result.direct = result.indirect = {};
 }
 

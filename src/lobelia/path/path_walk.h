@@ -43,6 +43,7 @@ inline float rouletteSurvival(Rgb throughput, float eta) {
 
 struct PathCounts {
   uint64_t pathRays = 0, shadowRays = 0, nonFinite = 0;
+  uint32_t firstBad = 0xffffffffu;  // smallest pixel with a path that was not finite
 };
 
 struct PathResult {
@@ -110,10 +111,11 @@ class PathWalk {
   bool advance(PathState& path, Shadows& shadows) const;  // false: the path has ended
   void light(PathState& path, const Bsdf& bsdf, Vec3f wo, Shadows& shadows) const;
   void traceShadows(const Shadows& shadows, PathCounts& counts) const;
+  void lit(const PathShadow& shadow) const;
   void tracePixel(std::span<const PathShadow* const> shadows) const;
   void tracePacket(std::span<const PathShadow* const> shadows) const;
   void meet(PathState& path, Rgb radiance, const SurfacePoint* hit) const;
-  void finish(PathResult& result, PathCounts& counts) const;
+  void finish(PathState& path, PathCounts& counts) const;
 
   const Rays& tracer_;
   const EmitterSampler& emitters_;

@@ -1,0 +1,185 @@
+#include "lobelia/app/replay_lights.h"
+
+#include <algorithm>
+
+#include "lobelia/app/band_plan.h"
+#include "lobelia/app/frame_setup.h"
+#include "lobelia/app/replay_text.h"
+
+namespace lobelia::app {
+namespace {
+
+constexpr size_t kBrightest = 5;         // lights printed per receiver
+constexpr size_t kMostLights = 1 << 15;  // of a set whose lights are looked at one by one
+
+// The lights of every class one by one: `one` has the same settings and a single light.
+template <class Light, class F>
+void eachLight(const std::vector<Light>& lights, const std::vector<uint32_t>* ends,
+               std::vector<Light> VirtualLights::*array,
+               std::vector<uint32_t> VirtualLights::*arrayEnds, const F& f) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    VirtualLights one;
+    (one.*array).push_back(lights[i]);
+    if (ends) {
+      for (const uint32_t end : *ends) (one.*arrayEnds).push_back(i < end ? 1 : 0);
+    }
+    f(i, one);
+  }
+}
+
+struct Contribution {
+  std::string light;
+  Rgb value;
+};
+
+class LightReplay {
+ public:
+  LightReplay(const Frame& frame, FrameRun& run, uint32_t pixel, int maxDepth, bool all, Film& film,
+              Context& context)
+      : options_(frame.options),
+        camera_(frame.camera),
+        run_(run),
+        pixel_(pixel),
+        maxDepth_(maxDepth),
+        all_(all),
+        film_(film),
+        context_(context) {}
+
+  int run() {
+    const PixelSet pixels = choosePixels(camera_, options_);
+    useLights(0);
+    plan_ = planBands(run_.tracer, pixels, maxDepth_, lightCount_, options_, film_);
+    plan_.gather.onlyPixel = pixel_;
+    const int row = static_cast<int>(pixel_) / film_.width;
+    for (int sample = 0; sample < plan_.eye.sampleCount && !context_.cancelled(); ++sample) {
+      if (plan_.set(sample) != set_) useLights(plan_.set(sample));
+      plan_.eye.sample = sample;
+      renderSample(sample, row / plan_.bandRows);
+    }
+    return plan_.eye.sampleCount;
+  }
+
+ private:
+  void useLights(int set) {
+    const VirtualLights lights =
+        obtainLights(run_.tracer, run_.emitters, maxDepth_, set, options_, context_);
+    lightCount_ = lights.size();
+    parts_ = splitLights(lights);
+    set_ = set;
+  }
+
+  void renderSample(int sample, int band) {
+    const auto [y0, y1] = plan_.rows(band, film_);
+    const Rgb direct = film_.rgb(pixel_, "direct"), indirect = film_.rgb(pixel_, "indirect");
+    const Receivers receivers =
+        traceReceivers(run_.tracer, run_.emitters, camera_, plan_.eye, y0, y1, film_, context_);
+    const bool shown = all_ || sample < kReplaySamples;
+    if (shown) {
+      fmt::print("sample {}  of light set {} ({} lights)\n  eye pass: direct {}  indirect {}\n",
+                 sample, set_, lightCount_, text(film_.rgb(pixel_, "direct") - direct),
+                 text(film_.rgb(pixel_, "indirect") - indirect));
+    }
+    const size_t points = receivers.points.size(), length = runLength(parts_.size());
+    for (size_t begin = 0; begin < points; begin += length) {
+      const size_t end = std::min(begin + length, points);
+      gatherRun(begin == 0 && end == points ? receivers : slice(receivers, begin, end), shown);
+    }
+  }
+
+  std::vector<Rgb> gather(const Receivers& run, const VirtualLights& lights, Context& context) {
+    std::vector<Rgb> out(run.points.size());
+    if (lights.size() > 0) gatherAll(run_.tracer, run, lights, plan_.gather, out, context);
+    return out;
+  }
+
+  // As the render does, in its order.
+  void gatherRun(const Receivers& run, bool shown) {
+    const auto mine = [&](const ReceiverPoint& point) { return point.pixel == pixel_; };
+    if (std::none_of(run.points.begin(), run.points.end(), mine)) return;
+    const std::vector<Rgb> direct = gather(run, parts_.direct, context_);
+    std::vector<Rgb> indirect(run.points.size());
+    if (options_.component != "direct") indirect = gather(run, parts_.indirect, context_);
+    for (size_t i = 0; i < run.points.size(); ++i) {
+      const ReceiverPoint& point = run.points[i];
+      if (!mine(point)) continue;
+      add(point.primary ? "direct" : "indirect", direct[i]);
+      add("indirect", indirect[i]);
+      if (!shown) continue;
+      fmt::print(
+          "  receiver at {}  depth {}  lobes {}  weight {}\n    gathered: direct {}  "
+          "indirect {}\n",
+          place(point.p), point.depth, point.lobeCount, text(point.weight), text(direct[i]),
+          text(indirect[i]));
+      printBrightest(slice(run, i, i + 1));
+    }
+  }
+
+  void add(const char* layer, Rgb value) {
+    float* p = &film_.layers.at(layer).values[size_t{pixel_} * 3];
+    p[0] += value.x, p[1] += value.y, p[2] += value.z;
+  }
+
+  // Lights alone, each for itself: their sum may differ from the gathered one by rounding.
+  void printBrightest(const Receivers& receiver) {
+    if (!all_ && parts_.size() > kMostLights) {
+      fmt::print("    (more than {} lights: --verbose looks at each)\n", kMostLights);
+      return;
+    }
+    Context own;
+    std::vector<Contribution> lights;
+    size_t visible = 0;
+    const auto addClass = [&](const char* name, const auto& of, const std::vector<uint32_t>* ends,
+                              auto array, auto arrayEnds) {
+      eachLight(of, ends, array, arrayEnds, [&](size_t i, const VirtualLights& one) {
+        const Rgb value = gather(receiver, one, own)[0];
+        if (value != Rgb{}) lights.push_back({fmt::format("{} {}", name, i), value}), ++visible;
+      });
+    };
+    using L = VirtualLights;
+    for (const auto& [name, part] :
+         {std::pair{"of an emitter", &parts_.direct}, std::pair{"of a bounce", &parts_.indirect}}) {
+      const auto called = [&](const char* kind) { return fmt::format("{} light {}", kind, name); };
+      addClass(called("omni").c_str(), part->omni, nullptr, &L::omni, &L::diffuseDepthEnds);
+      addClass(called("directional").c_str(), part->directional, nullptr, &L::directional,
+               &L::diffuseDepthEnds);
+      addClass(called("diffuse").c_str(), part->diffuse, &part->diffuseDepthEnds, &L::diffuse,
+               &L::diffuseDepthEnds);
+      addClass(called("glossy").c_str(), part->glossy, &part->glossyDepthEnds, &L::glossy,
+               &L::glossyDepthEnds);
+    }
+    const size_t count = std::min(kBrightest, lights.size());
+    std::partial_sort(lights.begin(), lights.begin() + static_cast<ptrdiff_t>(count), lights.end(),
+                      [](const Contribution& a, const Contribution& b) {
+                        return maxComponent(a.value) > maxComponent(b.value);
+                      });
+    fmt::print(
+        "    {} of {} lights contribute{}\n", visible, parts_.size(),
+        own.statistics.count("nonfinite") > 0
+            ? fmt::format("; NOT FINITE: {} pairs, left out", own.statistics.count("nonfinite"))
+            : "");
+    for (size_t i = 0; i < count; ++i)
+      fmt::print("      {}: {}\n", lights[i].light, text(lights[i].value));
+  }
+
+  const RenderOptions& options_;
+  const Camera& camera_;
+  FrameRun& run_;
+  const uint32_t pixel_;
+  const int maxDepth_;
+  const bool all_;
+  Film& film_;
+  Context& context_;
+  BandPlan plan_;
+  LightParts parts_;
+  size_t lightCount_ = 0;
+  int set_ = 0;
+};
+
+}  // namespace
+
+int replayVirtualLights(const Frame& frame, FrameRun& run, uint32_t pixel, int maxDepth, bool all,
+                        Film& film, Context& context) {
+  return LightReplay(frame, run, pixel, maxDepth, all, film, context).run();
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,79 @@
+// --replay: the pixel's bits and what it says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "lobelia/io/image_io.h"
+#include "support/run_program.h"
+
+namespace lobelia {
+namespace {
+
+using test::ProgramResult;
+using test::runProgram;
+using test::TemporaryFolder;
+
+void expectSameValue(const std::string& options, const std::string& program = "cornell") {
+  const TemporaryFolder folder;
+  const std::string command =
+      "render " + program + " --detail 0.1 --size 40x30 --crop 4,2,36,30 --quiet " + options;
+  ASSERT_EQ(runProgram(command + " -o " + (folder / "a.exr")).exitCode, 0);
+  const Film film = io::readFilm(folder / "a.exr");
+  for (const auto& [x, y] : {std::pair{4, 2}, std::pair{20, 25}, std::pair{33, 17}}) {
+    const std::string at = std::to_string(x) + "," + std::to_string(y);
+    const ProgramResult r = runProgram(command + " --replay " + at);
+    ASSERT_EQ(r.exitCode, 0) << r.err;
+    const std::string last = "pixel " + at + ": (";
+    const size_t found = r.out.find(last);
+    ASSERT_NE(found, std::string::npos) << r.out;
+    Rgb value;
+    ASSERT_EQ(
+        std::sscanf(r.out.c_str() + found + last.size(), "%f %f %f", &value.x, &value.y, &value.z),
+        3);
+    const Rgb expected =
+        film.rgb(static_cast<size_t>(y - film.y0) * static_cast<size_t>(film.width) +
+                 static_cast<size_t>(x - film.x0));
+    EXPECT_TRUE(value == expected) << options << " at " << at << "\n" << r.out;
+  }
+}
+
+TEST(Replay, PathsGiveThePicturesBits) {
+  expectSameValue("--lights path --spp 20 --seed 5");
+  expectSameValue("--lights path --spp 3 --component indirect");
+}
+
+TEST(Replay, VirtualLightsGiveThePicturesBits) {
+  expectSameValue("--spp 4 --num-lights 200");
+  expectSameValue("--lights vpl --spp 3 --passes 1 --num-lights 150 --direct lights");
+}
+
+TEST(Replay, TellsWhatHappened) {
+  const ProgramResult path =
+      runProgram("render cornell --size 32x32 --lights path --spp 24 --quiet --replay 16,20");
+  ASSERT_EQ(path.exitCode, 0) << path.err;
+  for (const char* part :
+       {"sample 15", "depth 1", "material '", "emitter sample", "8 samples more"})
+    EXPECT_NE(path.out.find(part), std::string::npos) << part << "\n" << path.out;
+  EXPECT_EQ(path.out.find("sample 16\n"), std::string::npos);
+  const ProgramResult lights =
+      runProgram("render cornell --size 32x32 --spp 2 --num-lights 100 --quiet --replay 16,20");
+  ASSERT_EQ(lights.exitCode, 0) << lights.err;
+  for (const char* part : {"sample 1", "receiver at", "gathered:", "lights contribute"})
+    EXPECT_NE(lights.out.find(part), std::string::npos) << part << "\n" << lights.out;
+}
+
+TEST(Replay, WrongUseIsRefused) {
+  const auto expectRefused = [](const std::string& options, const char* mentions) {
+    const ProgramResult r = runProgram("render cornell --size 32x32 --quiet " + options);
+    EXPECT_EQ(r.exitCode, 2) << options << "\n" << r.err;
+    EXPECT_NE(r.err.find(mentions), std::string::npos) << options << "\nsaid: " << r.err;
+  };
+  expectRefused("--replay 3", "X,Y");
+  expectRefused("--replay 3,4x", "X,Y");
+  expectRefused("--replay 32,0", "from 0 to 31");
+  expectRefused("--replay 3,4 --lights light", "belong to no pixel");
+}
+
+}  // namespace
+}  // namespace lobelia
