@@ -14,6 +14,7 @@
 #include "lobelia/app/commands.h"
 #include "lobelia/app/docs/command_texts.h"
 #include "lobelia/app/docs/docs_command.h"
+#include "lobelia/app/layer_commands.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/option_checks.h"
 #include "lobelia/app/render.h"
@@ -40,10 +41,13 @@ struct CommandLine {
   InfoOptions info;
   ConvertOptions scene, convert;
   BenchOptions bench;
+  RelightOptions relight;
+  ShowOptions show;
   CompletionOptions completion;
   DocsOptions docs;
   CLI::App *renderCommand, *compareCommand, *infoCommand, *methodsCommand, *sceneCommand,
-      *convertCommand, *benchCommand, *fitCommand, *completionCommand, *docsCommand;
+      *convertCommand, *benchCommand, *fitCommand, *relightCommand, *showCommand,
+      *completionCommand, *docsCommand;
 
   CommandLine() {
     app.set_version_flag("--version", std::string("lobelia ") + kVersion);
@@ -96,6 +100,11 @@ struct CommandLine {
     convertCommand->add_option("-o,--output", convert.folder, "Folder to write")
         ->type_name("FOLDER")
         ->required();
+    relightCommand =
+        app.add_subcommand("relight", "Mix a picture's light groups anew, without rendering");
+    addRelightOptions(*relightCommand, relight);
+    showCommand = app.add_subcommand("show", "Write a layer of a picture as PNG");
+    addShowOptions(*showCommand, show);
     benchCommand = app.add_subcommand("bench", "Regenerate a table of docs/performance.md");
     addBenchOptions(*benchCommand, bench);
     for (CLI::App* command : app.get_subcommands({})) {
@@ -145,6 +154,8 @@ struct CommandLine {
       return app::convert(scene, global);
     }
     if (*convertCommand) return app::convert(convert, global);
+    if (*relightCommand) return app::relight(relight);
+    if (*showCommand) return app::show(show);
     if (*benchCommand) return app::bench(bench, global, text);
     if (*completionCommand) return app::completion(completion, app);
     if (*docsCommand) return app::docs(docs, app);

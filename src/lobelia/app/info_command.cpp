@@ -5,6 +5,7 @@
 #include "lobelia/app/commands.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/io/scene_io.h"
+#include "lobelia/scene/light_groups.h"
 
 namespace lobelia::app {
 namespace {
@@ -56,6 +57,10 @@ Json describe(const Scene& scene) {
     const std::string key = name(emitter.type);
     emitters[key] = emitters.value(key, 0) + 1;
   }
+  Json groups = Json::array();
+  const LightGroups lights = lightGroups(scene);
+  for (size_t g = 0; g < lights.size(); ++g)
+    if (lights.used[g]) groups.push_back(lights.names[g]);
   Json cameras = Json::array();
   for (const Camera& camera : scene.cameras) {
     cameras.push_back({{"name", camera.name}, {"width", camera.width}, {"height", camera.height}});
@@ -75,6 +80,7 @@ Json describe(const Scene& scene) {
       {"textures", scene.textures.size()},
       {"images", scene.images.size()},
       {"emitters", emitters},
+      {"light_groups", groups},
       {"cameras", cameras},
       {"bounds", {{"lo", {box.lo.x, box.lo.y, box.lo.z}}, {"hi", {box.hi.x, box.hi.y, box.hi.z}}}},
       {"max_depth", scene.maxDepth},

@@ -156,7 +156,8 @@ void requireFit(const std::string& file, const VirtualLights& lights, const Ligh
   if (!deepEnough)
     refuse(fmt::format("was made for paths of at most {} edges; use --max-depth {} or less",
                        lights.maxDepth, lights.maxDepth));
-  if (lights.groups != lightGroups(scene).names)
+  const LightGroups groups = lightGroups(scene);
+  if (lights.groups.empty() ? groups.size() > 1 : lights.groups != groups.names)
     refuse("holds lights of other light groups than the scene has; save it again");
   const auto checkEmitter = [&](uint32_t emitter) {
     if (emitter != 0xffffffffu && emitter >= scene.emitters.size())

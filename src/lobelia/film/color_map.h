@@ -1,0 +1,24 @@
+// A colour for a number: cubehelix (Green 2011, "A colour scheme for the display of astronomical
+// intensity images", Bulletin of the Astronomical Society of India 39, 289-295), whose perceived
+// brightness rises evenly from black to white, on screen and in grey print.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lobelia/film/film.h"
+
+namespace lobelia {
+
+// x in [0, 1]; sRGB, 8 bits. Start 0.5, -1.5 rotations, hue 1, gamma 1 [Green, section 3].
+std::array<uint8_t, 3> cubehelix(float x);
+
+struct FalseColors {
+  float least = 0, most = 0;    // of the finite values
+  std::vector<uint8_t> pixels;  // sRGB; black is `least`, white `most`, magenta not finite
+};
+// Luminance of layers with colours.
+FalseColors falseColors(const Film& film, const std::string& layer);
+
+}  // namespace lobelia
