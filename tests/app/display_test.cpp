@@ -160,9 +160,9 @@ class FakeViewer {
 
 class DisplayTest : public ::testing::Test {
  protected:
-  ProgramResult render(const std::string& arguments) const {
-    return runProgram("render " + scene_ + " --spp 4 --num-lights 16 -o " + (folder_ / "a.exr") +
-                      " " + arguments);
+  ProgramResult render(const std::string& arguments, int spp = 4) const {
+    return runProgram("render " + scene_ + " --num-lights 16 --spp " + std::to_string(spp) +
+                      " -o " + (folder_ / "a.exr") + " " + arguments);
   }
   // Where the file has its window, the viewer has the file.
   void expectTheFile(const ViewedImage& image, const std::string& file = "a.exr") const {
@@ -202,9 +202,7 @@ TEST_F(DisplayTest, ShowsMoreThanTheEnd) {
   FakeViewer viewer;
   // Seconds of work, so that there is something to show meanwhile.
   const ProgramResult r = render(
-      "--lights path --size 120x80 --spp 100000 --time-limit 1.5 --quiet "
-      "--display " +
-      viewer.address());
+      "--lights path --size 120x80 --time-limit 1.5 --quiet --display " + viewer.address(), 100000);
   viewer.wait();
   EXPECT_EQ(r.exitCode, 0) << r.err;
   ASSERT_EQ(viewer.images.size(), 1u);
@@ -240,7 +238,7 @@ TEST_F(DisplayTest, AnAbsentOrLeavingViewerIsAWarning) {
   // It goes after one message, while much is still to be sent.
   FakeViewer leaving(1);
   const ProgramResult left =
-      render("--size 1024x1024 --spp 1 --lights path --max-depth 1 --display " + leaving.address());
+      render("--size 1024x1024 --lights path --max-depth 1 --display " + leaving.address(), 1);
   EXPECT_EQ(left.exitCode, 0);
   EXPECT_NE(left.err.find("no viewer at"), std::string::npos) << left.err;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "a.exr"));
