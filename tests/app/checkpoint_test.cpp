@@ -24,7 +24,7 @@ struct Method {
 };
 void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 
-constexpr const char* kScene = "render cornell --detail 0.1 --quiet --checkpoint-interval 0.01 ";
+constexpr const char* kScene = "render cornell --detail 0.05 --quiet --checkpoint-interval 0.03 ";
 
 void expectSamePicture(const std::string& a, const std::string& b) {
   const Film first = io::readFilm(a), second = io::readFilm(b);
@@ -96,13 +96,13 @@ TEST_P(Checkpoint, TimeLimitedRendersGoOn) {
 INSTANTIATE_TEST_SUITE_P(
     Methods, Checkpoint,
     testing::Values(Method{"path",
-                           "--lights path --size 64x48 --spp 48 --seed 3 "
+                           "--lights path --size 48x40 --spp 32 --seed 3 "
                            "--aov albedo,normal,depth,direct,indirect,variance"},
                     Method{"light",
-                           "--lights light --size 64x48 --spp 64 "
+                           "--lights light --size 48x40 --spp 150 "
                            "--aov direct,indirect,variance"},
                     Method{"glossy",
-                           "--size 48x40 --spp 12 --num-lights 600 "
+                           "--size 48x40 --spp 8 --num-lights 600 "
                            "--aov direct,indirect,specular,variance"},
                     Method{"pixels",
                            "--lights vpl --size 64x64 --pixels 500 --spp 8 "
@@ -125,7 +125,7 @@ TEST(CheckpointFile, OfAnotherRenderIsRefusedAndSaysWhy) {
   expectRefused(base + "--size 17x16 --spp 4 --seed 1", "--size 16x16 (now 17x16)");
   expectRefused(made + " --component direct", "--component all (now direct)");
   expectRefused(std::string(kScene) + "--size 16x16 --spp 4 --seed 1", "--lights path");
-  expectRefused("render cornell --detail 0.3 --quiet --lights path --size 16x16 --spp 4 --seed 1",
+  expectRefused("render cornell --detail 0.1 --quiet --lights path --size 16x16 --spp 4 --seed 1",
                 "another scene");
   EXPECT_EQ(runProgram(made + " --threads 2 --resume " + file + out).exitCode, 0);
 

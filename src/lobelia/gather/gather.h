@@ -16,7 +16,7 @@ struct GatherSettings {
   // Do lights on emitters themselves (depth 0; omni and directional lights are) count? false where
   // the eye pass has added direct light (--direct nee): such lights are left out.
   bool direct = false;
-  // Only the tiles that hold a receiver of this pixel are gathered (--replay): its receivers get the
+  // Only the tiles that hold a receiver of this pixel are gathered (--replay): these get the
   // same bits, others the same or nothing.
   static constexpr uint32_t kAllPixels = 0xffffffffu;
   uint32_t onlyPixel = kAllPixels;
