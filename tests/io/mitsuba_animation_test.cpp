@@ -55,23 +55,24 @@ TEST(MitsubaAnimation, IsWrittenAndReadBackIdentically) {
   EXPECT_EQ(hash(scene1), hash(scene2));
 }
 
+void expectRefused(const std::string& animation, const std::string& line,
+                   const std::string& words) {
+  const std::string said = refused(animation);
+  EXPECT_NE(said.find("scene.xml:" + line + ":"), std::string::npos) << said;
+  EXPECT_NE(said.find(words), std::string::npos) << said;
+}
+
 TEST(MitsubaAnimation, MistakesAreRefusedWithTheirLine) {
-  EXPECT_NE(
-      refused("<animation name=\"toWorld\">\n</animation>").find(":3: the <animation> has no"),
-      std::string::npos);
-  EXPECT_NE(refused("<animation name=\"toWorld\">\n<transform time=\"2\"/>\n"
-                    "<transform time=\"2\"/></animation>")
-                .find(":5: the times"),
-            std::string::npos);
-  EXPECT_NE(refused("<animation name=\"toWorld\">\n<transform/></animation>").find("time"),
-            std::string::npos);
-  EXPECT_NE(
-      refused("<animation name=\"toWorld\">\n<transform time=\"x\"/></animation>").find("'x'"),
-      std::string::npos);
-  EXPECT_NE(refused("<animation name=\"toWorld\">\n<transform time=\"0\"/>\n"
-                    "<transform time=\"1\"><scale x=\"-1\"/></transform></animation>")
-                .find("mirror"),
-            std::string::npos);
+  const std::string open = "<animation name=\"toWorld\">\n";
+  expectRefused(open + "</animation>", "3", "no keys");
+  expectRefused(open + "<transform time=\"2\"/>\n<transform time=\"2\"/></animation>", "5",
+                "times");
+  expectRefused(open + "<transform/></animation>", "4", "time");
+  expectRefused(open + "<transform time=\"x\"/></animation>", "4", "'x'");
+  expectRefused(open +
+                    "<transform time=\"0\"/>\n<transform time=\"1\"><scale x=\"-1\"/>"
+                    "</transform></animation>",
+                "5", "mirror");
 }
 
 }  // namespace
