@@ -57,6 +57,7 @@ void requireReplay(const RenderOptions& options) {
 void replay(const Frame& frame, FrameRun& run, bool all, Context& context) {
   RenderOptions options = frame.options;
   options.aovs.clear();
+  if (!options.saveLights.empty()) options.passes = 1;  // as lightSetCount() has it
   options.saveLights.clear();
   options.timeLimit = 0;
   Film film = makeFilm(frame.camera, options);
