@@ -232,6 +232,7 @@ void Reader::makeCamera() {
   if (c.type == CameraType::orthographic)
     in.unsupported("lensradius", "orthographic cameras see sharply", findings_);
   in.finish("camera", findings_);
+  c.name = "camera";  // as PBRT calls its coordinate system
   scene_.cameras.push_back(c);
 }
 
