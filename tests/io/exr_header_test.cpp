@@ -48,6 +48,24 @@ TEST(ExrHeader, FindsAttributesLargerThanTheFile) {
   }
 }
 
+// The library reads values by what they hold: a wrong size puts what follows in the wrong place.
+TEST(ExrHeader, FindsSizesThatDoNotFitTheValue) {
+  const auto good = exrFile();
+  const std::pair<const char*, const char*> attributes[] = {
+      {"channels", "chlist"}, {"compression", "compression"}, {"dataWindow", "box2i"}};
+  for (const auto& [name, type] : attributes) {
+    for (const int32_t more : {-1, 1}) {
+      auto bytes = good;
+      const size_t at = sizeOf(bytes, name, type);
+      int32_t size = 0;
+      std::memcpy(&size, bytes.data() + at, sizeof(size));
+      put(bytes, at, size + more);
+      const std::string problem = io::exrHeaderProblem(bytes, bytes.size(), 1 << 16);
+      EXPECT_TRUE(contains(problem, name) && contains(problem, "cannot have")) << problem;
+    }
+  }
+}
+
 TEST(ExrHeader, FindsAbsurdWindows) {
   auto bytes = exrFile();
   const size_t window = sizeOf(bytes, "dataWindow", "box2i") + 4;

@@ -45,6 +45,72 @@ class Cursor {
   size_t at_ = 0;
 };
 
+// Types whose values have one size (OpenEXR file layout, "Predefined attribute types").
+struct TypeSize {
+  std::string_view type;
+  int32_t bytes;
+};
+constexpr TypeSize kTypeSizes[] = {{"box2i", 16},
+                                   {"box2f", 16},
+                                   {"chromaticities", 32},
+                                   {"compression", 1},
+                                   {"deepImageState", 1},
+                                   {"double", 8},
+                                   {"envmap", 1},
+                                   {"float", 4},
+                                   {"int", 4},
+                                   {"keycode", 28},
+                                   {"lineOrder", 1},
+                                   {"m33d", 72},
+                                   {"m33f", 36},
+                                   {"m44d", 128},
+                                   {"m44f", 64},
+                                   {"rational", 8},
+                                   {"tiledesc", 9},
+                                   {"timecode", 8},
+                                   {"v2d", 16},
+                                   {"v2f", 8},
+                                   {"v2i", 8},
+                                   {"v3d", 24},
+                                   {"v3f", 12},
+                                   {"v3i", 12}};
+
+// Does the value take the bytes that are stated for it? The library reads most values by what they
+// hold, and where that differs it takes numbers from the middle of others for sizes. Values that do
+// not lie among the bytes are believed.
+bool fits(Cursor in, std::string_view type, int32_t size) {
+  for (const TypeSize& known : kTypeSizes)
+    if (type == known.type) return size == known.bytes;
+  const size_t end = in.position() + static_cast<size_t>(size);
+  if (type == "chlist") {  // name, then type, linearity and sampling in 16 bytes; an empty name
+    constexpr size_t kChannel = 16;
+    while (in.position() < end) {
+      const auto name = in.name();
+      if (!name) return true;
+      if (name->empty()) return in.position() == end;
+      in.skip(kChannel);
+    }
+    return false;
+  }
+  if (type == "preview") {  // width, height, pixels of four bytes
+    const auto width = in.integer(), height = width ? in.integer() : std::nullopt;
+    if (!height) return size >= 8;
+    return *width >= 0 && *height >= 0 && *width < (1 << 14) && *height < (1 << 14) &&
+           int64_t{size} == 8 + 4 * int64_t{*width} * *height;
+  }
+  if (type == "stringvector") {
+    while (in.position() < end) {
+      const auto length = in.integer();
+      if (!length) return true;
+      if (*length < 0 || static_cast<size_t>(*length) > end - std::min(end, in.position()))
+        return false;
+      in.skip(static_cast<size_t>(*length));
+    }
+    return in.position() == end;
+  }
+  return type != "floatvector" || size % 4 == 0;
+}
+
 // minX, minY, maxX, maxY.
 std::string windowProblem(Cursor& in, int maxSide) {
   int64_t v[4];
@@ -88,6 +154,9 @@ std::string exrHeaderProblem(std::span<const std::byte> start, uint64_t fileSize
           "its header is damaged: attribute '{}' has {} bytes, {} are left in the "
           "file",
           *name, *size, in.left());
+    if (!fits(in, *type, *size))
+      return fmt::format("its header is damaged: attribute '{}' of type {} cannot have {} bytes",
+                         *name, *type, *size);
     const size_t next = in.position() + static_cast<size_t>(*size);
     if (*type == "box2i" && *size == 16) {
       const std::string problem = windowProblem(in, maxSide);

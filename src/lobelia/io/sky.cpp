@@ -12,6 +12,8 @@ namespace lobelia::io {
 namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
+constexpr int kMinWidth = 8, kMaxWidth = 2048;  // there is no finer detail than haze about the sun
+constexpr int kMaxAzimuths = 512;               // of half a turn; columns between are interpolated
 
 void check(const SkySettings& s, const Location& where) {
   const auto refuse = [&](const std::string& what) { throw InputError(where, what); };
@@ -24,8 +26,9 @@ void check(const SkySettings& s, const Location& where) {
     refuse("the ground's albedo must lie between 0 and 1");
   if (!(s.stretch >= 1 && s.stretch <= 2))
     refuse(fmt::format("a stretch of {:g}; it lies between 1 and 2", s.stretch));
-  if (s.width < 8 || s.width > 8192)
-    refuse(fmt::format("a resolution of {}; it lies between 8 and 8192", s.width));
+  if (s.width < kMinWidth || s.width > kMaxWidth)
+    refuse(fmt::format("a resolution of {}; it lies between {} and {}", s.width, kMinWidth,
+                       kMaxWidth));
 }
 
 // One row of the image: interpolated between azimuths from the sun's, of which there are as many
@@ -103,7 +106,7 @@ Sky makeSky(const SkySettings& settings, const Location& where) {
   image.pixels.assign(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * 3,
                       0.f);
 
-  std::vector<double> azimuths(static_cast<size_t>(settings.width / 2) + 1);
+  std::vector<double> azimuths(static_cast<size_t>(std::min(settings.width / 2, kMaxAzimuths)) + 1);
   for (size_t i = 0; i < azimuths.size(); ++i)
     azimuths[i] = static_cast<double>(i) / static_cast<double>(azimuths.size() - 1) * kPiD;
   const auto horizon = atmosphere.radiance(0, azimuths);

@@ -73,6 +73,7 @@ void Reader::sunAndSky(Object& object) {
                                   SpectrumUse::reflectance);
   settings.stretch = object.number("stretch").value_or(1);
   settings.width = object.integer("resolution", settings.width);
+  if (!hasSky) settings.width = 8;  // the sun alone needs no image
   if (object.boolean("extend", false)) settings.below = BelowHorizon::extended;
   if (const std::optional<Vec3d> d = object.vector("sun_direction")) {
     const Vec3f local = toWorld.from.vector(

@@ -19,7 +19,7 @@ namespace lobelia::io::pbrt {
 namespace {
 
 constexpr int kMaxLevels = 10;
-constexpr size_t kMaxSubdivided = size_t{1} << 22;  // triangles
+constexpr size_t kMaxSubdivided = size_t{1} << 20;  // triangles
 
 const std::vector<std::string>& shapeTypes() {
   static const std::vector<std::string> types{"trianglemesh", "plymesh",  "bilinearmesh", "sphere",
