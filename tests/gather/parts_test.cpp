@@ -49,7 +49,7 @@ class Parts : public testing::Test {
   Context context_;
   Tracer tracer_{scene_, context_};
   Receivers receivers_ =
-      randomReceivers(300, {LobeType::lambert, LobeType::microfacetReflection}, 3);
+      randomReceivers(300, {LobeType::lambert, LobeType::microfacetReflection}, 2, 3);
 };
 
 TEST_F(Parts, GroupsSumToTheWholeWhoseBitsTheyLeaveAlone) {
