@@ -9,7 +9,7 @@
 
 namespace lobelia {
 
-// Exit codes of the command line's contract (docs/manual.md).
+// Exit codes of the command line's contract (docs/options.md).
 enum class ExitCode : int { done = 0, failed = 1, usage = 2, input = 3, interrupted = 130, terminated = 143 };
 
 // A place in an input: file, and line and column where the format has them (1-based; 0: none).
