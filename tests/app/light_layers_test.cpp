@@ -88,8 +88,8 @@ TEST_F(LightLayers, GroupsSumToThePictureOfEveryMethod) {
 }
 
 TEST_F(LightLayers, AGroupIsThePictureOfItsLightsAlone) {
-  for (const std::string method : {"--lights path --spp 128", "--lights light --spp 256",
-                                   "--lights glossy --spp 16 --num-lights 512"}) {
+  for (const std::string method : {"--lights path --spp 64", "--lights light --spp 128",
+                                   "--lights glossy --spp 16 --num-lights 128"}) {
     const Film all = render("all.xml", method + " --aov groups");
     const Film alone = render("panel.xml", method);
     const double expected = meanOf(alone, "");
