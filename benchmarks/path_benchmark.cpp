@@ -30,7 +30,7 @@ void path(benchmark::State& state, builtin::RoomKind kind) {
   settings.spp = kSamples;
   const auto tiles = app::recordPathRays(tracer, emitters, scene.cameras[0], settings, 0);
   double rays = 0;
-  for (const auto& tile : tiles) rays += static_cast<double>(tile.size());
+  for (const auto& tile : tiles) rays += static_cast<double>(tile.rays.size());
   double pathSeconds = 0, bareSeconds = 0, pathRays = 0, bareRays = 0, pathCpu = 0, bareCpu = 0;
   for (auto _ : state) {
     Film film;
