@@ -1,9 +1,13 @@
 // A view and light for scenes that have none: a camera that frames everything from the front, a
 // little from the right and from above (or from the left or behind, where more of the outsides of
-// surfaces shows), and the gradient of a photographer's studio.
+// surfaces shows; flat things, as charts and panels, straight), and the gradient of a
+// photographer's studio.
 #include "lobelia/io/default_view.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <span>
 
 #include "lobelia/io/scene_io.h"
 
@@ -11,13 +15,20 @@ namespace lobelia::io {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kElevation = 20 * kDegree;  // of the camera
-// About y from +z, the first preferred.
-constexpr double kAzimuths[] = {30 * kDegree, -30 * kDegree, 150 * kDegree, -150 * kDegree};
+struct Place {
+  double azimuth, elevation;  // about y from +z; above the floor
+};
+// Places of the camera, the first preferred.
+constexpr Place kPlaces[] = {{30 * kDegree, 20 * kDegree},
+                             {-30 * kDegree, 20 * kDegree},
+                             {150 * kDegree, 20 * kDegree},
+                             {-150 * kDegree, 20 * kDegree}};
+constexpr Place kPlacesOfFlat[] = {{0, 4 * kDegree}, {180 * kDegree, 4 * kDegree}};
+constexpr float kFlat = 0.2f;  // largest depth over the smaller of width and height
 constexpr double kClearlyMore = 1.1;
 constexpr double kFov = 35 * kDegree;
 constexpr float kSmallest = 1e-30f, kLargest = 1e30f;  // radii that a camera can frame
-constexpr double kMargin = 1.06;                       // of the film around what is framed
+constexpr double kMargin = 1.12;                       // of the film around what is framed
 constexpr int kWidth = 1024, kHeight = 768;
 
 // From where it is to look towards the centre. Made of a direction and a place: the two places are
@@ -28,20 +39,38 @@ Mat4 viewFrom(Vec3d place, Vec3d towards) {
   return toWorld;
 }
 
-// The nearest distance along the view direction from which all corners of the box are in the film.
-double framingDistance(const Bounds3f& box, const Mat4& camera) {
-  const double tanX = std::tan(kFov / 2) / kMargin, tanY = tanX * kHeight / kWidth;
-  const Mat4 toCamera = *inverse(camera);
-  double distance = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3f p =
-        toCamera.point({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                        corner & 4 ? box.hi.z : box.lo.z});
-    const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);
-    distance = std::max({distance, std::abs(x) / tanX - static_cast<double>(p.z),
-                         std::abs(y) / tanY - static_cast<double>(p.z)});
+// Calls visit(p) with points that span what is framed, by `toView`: all vertices of the scene, or
+// the corners of the box where the box is not the scene's.
+template <class Visit>
+void visitPoints(const Scene& scene, const Bounds3f& box, const Mat4& toView, Visit visit) {
+  const Bounds3f all = bounds(scene);
+  if (all.lo == box.lo && all.hi == box.hi) {
+    for (const Instance& instance : scene.instances) {
+      const Mat4 m = toView * instance.toWorld.to;
+      for (const Vec3f p : scene[instance.mesh].positions) visit(m.point(p));
+    }
+    return;
   }
-  return distance;
+  for (int corner = 0; corner < 8; ++corner)
+    visit(toView.point({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                        corner & 4 ? box.hi.z : box.lo.z}));
+}
+
+// Where, in the axes of a view towards the middle of the box, the camera has all points in the film
+// and is as near as it can be.
+Vec3d framingPlace(const Scene& scene, const Bounds3f& box, const Mat4& view) {
+  const Mat4 toView = *inverse(view);
+  Bounds3f seen;
+  visitPoints(scene, box, toView, [&](Vec3f p) { seen.add(p); });
+  const auto x = static_cast<double>(seen.centre().x), y = static_cast<double>(seen.centre().y);
+  const double tanX = std::tan(kFov / 2) / kMargin, tanY = tanX * kHeight / kWidth;
+  double distance = static_cast<double>(0.1f * box.radius() - seen.lo.z);  // in front of it all
+  visitPoints(scene, box, toView, [&](Vec3f p) {
+    const auto dx = std::abs(static_cast<double>(p.x) - x),
+               dy = std::abs(static_cast<double>(p.y) - y);
+    distance = std::max(distance, std::max(dx / tanX, dy / tanY) - static_cast<double>(p.z));
+  });
+  return {x, y, -distance};
 }
 
 // Area of all surfaces, projected along the view, whose outside faces the camera. The same from
@@ -72,12 +101,14 @@ double facingArea(const Scene& scene, Vec3d towards) {
   return sum;
 }
 
-Vec3d viewDirection(const Scene& scene) {
+Vec3d viewDirection(const Scene& scene, const Bounds3f& box) {
+  const Vec3f extent = box.extent();
+  const bool flat = extent.z < kFlat * std::min(extent.x, extent.y);
   Vec3d best;
   double most = -1;
-  for (const double azimuth : kAzimuths) {
-    const Vec3d towards(std::sin(azimuth) * std::cos(kElevation), std::sin(kElevation),
-                        std::cos(azimuth) * std::cos(kElevation));
+  for (const Place& p : flat ? std::span<const Place>(kPlacesOfFlat) : kPlaces) {
+    const Vec3d towards(std::sin(p.azimuth) * std::cos(p.elevation), std::sin(p.elevation),
+                        std::cos(p.azimuth) * std::cos(p.elevation));
     const double area = facingArea(scene, towards);
     if (most < 0 || area > most * kClearlyMore) best = towards, most = area;
   }
@@ -103,11 +134,13 @@ Camera framingCamera(const Scene& scene) {
   const Bounds3f box = framedBox(scene);
   const Vec3f c = box.centre();
   const Vec3d centre(c.x, c.y, c.z);
-  const Vec3d towards = viewDirection(scene);
-  const double distance = framingDistance(box, viewFrom(centre, towards));
+  const Vec3d towards = viewDirection(scene, box);
+  const Mat4 view = viewFrom(centre, towards);
+  const Vec3d place = framingPlace(scene, box, view);
+  const double distance = -place.z;
   Camera camera;
   camera.name = "default";
-  camera.toWorld = Transform(viewFrom(centre + towards * distance, towards));
+  camera.toWorld = Transform(view * translation(place));
   camera.fovX = static_cast<float>(kFov);
   camera.width = kWidth, camera.height = kHeight;
   const auto radius = static_cast<double>(box.radius());
@@ -161,10 +194,12 @@ void addStudio(Scene& scene, const std::string& why) {
                                                        static_cast<double>(forward.z));
   studio.toWorld = Transform(rotation({0, 1, 0}, angle / kDegree));
   scene.emitters.push_back(studio);
-  Finding finding{Severity::info, {scene.file, 0, 0}, why};
-  finding.message +=
-      "; a neutral studio environment is added (--environment FILE lights the scene with another)";
-  scene.findings.push_back(std::move(finding));
+  const std::string message = fmt::format(
+      "{}; a neutral studio environment is added (--environment FILE lights the scene with "
+      "another)",
+      why);
+  const Location where{scene.file, 0, 0};
+  scene.findings.push_back({Severity::info, where, message});
 }
 
 void addDefaultView(Scene& scene) {
