@@ -13,7 +13,9 @@ std::string readFileBytes(const std::string& file, const std::string& what, cons
     throw InputError(from, fmt::format("cannot read {} file '{}': {}", what, file, why));
   };
   // The system would take such a name for a shorter one.
-  if (file.find('\0') != file.npos) fail("the name has a zero byte");
+  if (file.find('\0') != file.npos)
+    throw InputError(from, fmt::format("cannot read {} file '{}...': the name has a zero byte",
+                                       what, file.c_str()));
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
     fail("not a regular file");

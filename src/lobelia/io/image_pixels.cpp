@@ -13,6 +13,7 @@
 
 #include "lobelia/base/file.h"
 #include "lobelia/io/exr_header.h"
+#include "lobelia/io/image_headers.h"
 
 namespace lobelia::io {
 namespace {
@@ -40,6 +41,12 @@ uint64_t sizeOf(const std::string& file) {
 
 void checkExrHeader(std::span<const std::byte> start, uint64_t fileSize, const std::string& name) {
   const std::string problem = exrHeaderProblem(start, fileSize, kMaxSide);
+  if (!problem.empty())
+    throw InputError({name, 0, 0}, fmt::format("cannot read the image: {}", problem));
+}
+
+void checkHeader(std::span<const std::byte> bytes, const std::string& name) {
+  const std::string problem = imageHeaderProblem(bytes, kMaxBytes / sizeof(float));
   if (!problem.empty())
     throw InputError({name, 0, 0}, fmt::format("cannot read the image: {}", problem));
 }
@@ -192,7 +199,9 @@ std::vector<StoredImage> readStoredImages(const std::string& file, bool all, con
   constexpr size_t kStart = 1 << 16;  // longer than headers are
   const std::vector<std::byte> start = readFileStart(file, kStart);
   checkExrHeader(start, sizeOf(file), file);
-  return readOpened(file, formatOf(file, start), nullptr, all, file);
+  const std::string format = formatOf(file, start);
+  if (format == "png" || format == "jpeg" || format == "bmp") checkHeader(readFile(file), file);
+  return readOpened(file, format, nullptr, all, file);
 }
 
 StoredImage readStoredImage(std::span<const std::byte> bytes, const std::string& name) {
@@ -201,6 +210,7 @@ StoredImage readStoredImage(std::span<const std::byte> bytes, const std::string&
   if (!inMemory)
     throw InputError({name, 0, 0}, "unknown image format; PNG, JPEG, WebP, HDR and EXR are read");
   checkExrHeader(bytes, bytes.size(), name);
+  checkHeader(bytes, name);
   OIIO::Filesystem::IOMemReader reader(
       const_cast<std::byte*>(bytes.data()),  // NOLINT: older releases take no pointer to const
       bytes.size());
