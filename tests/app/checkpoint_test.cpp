@@ -125,7 +125,7 @@ TEST(CheckpointFile, OfAnotherRenderIsRefusedAndSaysWhy) {
   expectRefused(base + "--size 17x16 --spp 4 --seed 1", "--size 16x16 (now 17x16)");
   expectRefused(made + " --component direct", "--component all (now direct)");
   expectRefused(std::string(kScene) + "--size 16x16 --spp 4 --seed 1", "--lights path");
-  expectRefused("render cornell --detail 0.1 --quiet --lights path --size 16x16 --spp 4 --seed 1",
+  expectRefused("render cornell --detail 0.2 --quiet --lights path --size 16x16 --spp 4 --seed 1",
                 "another scene");
   EXPECT_EQ(runProgram(made + " --threads 2 --resume " + file + out).exitCode, 0);
 

@@ -133,7 +133,7 @@ std::vector<std::string> offeredByBash(const std::string& words) {
 TEST(Completion, BashCompletes) {
   if (!present("bash")) GTEST_SKIP() << "no bash";
   using Words = std::vector<std::string>;
-  EXPECT_EQ(offeredByBash("lobelia re"), Words{"render"});
+  EXPECT_EQ(offeredByBash("lobelia ren"), Words{"render"});
   EXPECT_TRUE(contains(offeredByBash("lobelia render --li"), "--lights"));
   EXPECT_EQ(offeredByBash("lobelia render --lights ''"), (Words{"path", "light", "vpl", "glossy"}));
   EXPECT_EQ(offeredByBash("lobelia render --lights = gl"), Words{"glossy"});
@@ -156,7 +156,7 @@ TEST(Completion, FishCompletes) {
               "source " + (folder / "completion") + "\ncomplete -C '" + line + "'\n");
     return said("HOME=" + folder.path() + " fish --no-config " + (folder / "try"));
   };
-  EXPECT_TRUE(offered("lobelia re").starts_with("render\t"));
+  EXPECT_TRUE(offered("lobelia ren").starts_with("render\t"));
   EXPECT_NE(offered("lobelia render --li").find("--lights"), std::string::npos);
   EXPECT_NE(offered("lobelia render --lights gl").find("glossy"), std::string::npos);
   EXPECT_NE(offered("lobelia render kitch").find("kitchen"), std::string::npos);
