@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/moving_scene.h"
 #include "lobelia/io/image_io.h"
 #include "support/run_program.h"
 
@@ -18,8 +19,9 @@ void expectSameValue(const std::string& options, const std::string& program = "c
   const TemporaryFolder folder;
   const std::string command =
       "render " + program + " --detail 0.1 --size 40x30 --crop 4,2,36,30 --quiet " + options;
-  ASSERT_EQ(runProgram(command + " -o " + (folder / "a.exr")).exitCode, 0);
-  const Film film = io::readFilm(folder / "a.exr");
+  ASSERT_EQ(runProgram(command + " -o " + (folder / "a%d.exr")).exitCode, 0);
+  const bool frame = options.find("--frame 2") != std::string::npos;
+  const Film film = io::readFilm(folder / (frame ? "a2.exr" : "a%d.exr"));
   for (const auto& [x, y] : {std::pair{4, 2}, std::pair{20, 25}, std::pair{33, 17}}) {
     const std::string at = std::to_string(x) + "," + std::to_string(y);
     const ProgramResult r = runProgram(command + " --replay " + at);
@@ -46,6 +48,17 @@ TEST(Replay, PathsGiveThePicturesBits) {
 TEST(Replay, VirtualLightsGiveThePicturesBits) {
   expectSameValue("--spp 4 --num-lights 200");
   expectSameValue("--lights vpl --spp 3 --passes 1 --num-lights 150 --direct lights");
+}
+
+TEST(Replay, OfOneFrameGivesItsBits) {
+  const TemporaryFolder folder;
+  const std::string scene = test::writeMovingScene(folder);
+  for (const char* motion :
+       {"--frames 4 --frame 2 ", "--frames 4 --frame 2 --turntable --camera a "})
+    expectSameValue(std::string(motion) + "--lights path --spp 3", scene);
+  const ProgramResult r = runProgram("render " + scene + " --frames 4 --replay 3,3");
+  EXPECT_EQ(r.exitCode, 2) << r.err;
+  EXPECT_NE(r.err.find("--frame K"), std::string::npos) << r.err;
 }
 
 TEST(Replay, TellsWhatHappened) {

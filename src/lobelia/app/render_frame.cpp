@@ -15,14 +15,16 @@ namespace lobelia::app {
 namespace {
 
 // The switch that replays the first pixel known to have lost a sample, or to hold such a value.
-std::string replayHint(const Film& film, const Context& context) {
+std::string replayHint(const Film& film, const Frame& frame, const Context& context) {
   size_t pixel = static_cast<size_t>(context.statistics.value("first_nonfinite_pixel"));
   for (size_t i = 0; i < film.pixelCount() && pixel == 0; ++i) {
     if (!isFinite(film.rgb(i))) pixel = i + 1;
   }
   if (pixel == 0) return "";
   const size_t width = static_cast<size_t>(film.width);
-  return fmt::format("; --replay {},{} shows the first",
+  const std::string which =
+      frame.options.frames > 0 ? fmt::format("--frame {} ", frame.number) : std::string();
+  return fmt::format("; {}--replay {},{} shows the first", which,
                      (pixel - 1) % width + static_cast<size_t>(film.x0),
                      (pixel - 1) / width + static_cast<size_t>(film.y0));
 }
@@ -87,7 +89,7 @@ void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& cont
   context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);
 
   if (const uint64_t bad = countNonFinite(film) + context.statistics.count("nonfinite"); bad > 0) {
-    context.warning(fmt::format("{} non-finite values{}", bad, replayHint(film, context)));
+    context.warning(fmt::format("{} non-finite values{}", bad, replayHint(film, frame, context)));
   }
   setMetadata(film, scene, options, run.commandLine, context.statistics.seconds("total"));
   if (options.frames > 0) film.metadata["lobelia:frame"] = std::to_string(frame.number);

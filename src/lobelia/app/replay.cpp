@@ -51,7 +51,6 @@ void requireReplay(const RenderOptions& options) {
         "--replay: particles of --lights light belong to no pixel; it works with path and virtual "
         "lights");
   }
-  if (options.frames > 0) throw UsageError("--replay: of one picture, not of --frames");
 }
 
 void replay(const Frame& frame, FrameRun& run, bool all, Context& context) {
