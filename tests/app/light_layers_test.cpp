@@ -106,6 +106,28 @@ TEST_F(LightLayers, SavedLightsKeepTheirGroups) {
     EXPECT_EQ(made.layers.at(group).values, loaded.layers.at(group).values) << group;
 }
 
+// With the names of two groups swapped, the layers of an earlier run are no longer the right ones.
+TEST_F(LightLayers, StateOfOtherGroupsIsRefused) {
+  std::string text = sceneText(true, true);
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("value=\"bulb\"", "value=\"swapped\"");
+  replace("value=\"ceiling panel\"", "value=\"bulb\"");
+  replace("value=\"swapped\"", "value=\"ceiling panel\"");
+  test::writeText(folder_ / "swapped.xml", text);
+  const std::string lights = folder_ / "lights.dat", checkpoint = folder_ / "checkpoint";
+  const std::string options = "--spp 1 --num-lights 64 --aov groups ";
+  render("all.xml", options + "--save-lights " + lights);
+  render("all.xml", options + "--checkpoint " + checkpoint);
+  for (const std::string& state : {"--load-lights " + lights, "--resume " + checkpoint}) {
+    const auto r = runProgram("render " + (folder_ / "swapped.xml") + " --quiet " + options +
+                              state + " -o " + (folder_ / "out.exr"));
+    EXPECT_EQ(r.exitCode, 3) << state << "\n" << r.err;
+    EXPECT_NE(r.err.find("another scene"), std::string::npos) << state << "\n" << r.err;
+  }
+}
+
 TEST_F(LightLayers, TypesSumToWhatWasGathered) {
   const Film film = render(
       "all.xml", "--direct lights --env-lights 32 --spp 2 --num-lights 64 --aov types,groups,cost");

@@ -52,6 +52,7 @@ TEST(SceneHash, EqualScenesHaveEqualHashes) {
   EXPECT_EQ(hash(sampleScene()), hash(sampleScene()));
   Scene named = sampleScene();
   named.name = "other", named.meshes[0].name = "other", named.findings.emplace_back();
+  named.emitters[0].name = "other", named.emitters[0].group = "default";  // as without group
   EXPECT_EQ(hash(named), hash(sampleScene()));
 }
 
@@ -78,7 +79,10 @@ TEST(SceneHash, EveryChangeCounts) {
       [](Scene& s) { s.materials[0].diffuse = TextureHandle{0}; },
       [](Scene& s) { s.materials[0].weight = 0.25f; },
       [](Scene& s) { s.emitters[0].radiance = Rgb(2.f); },
+      [](Scene& s) { s.emitters[0].group = "key"; },
+      [](Scene& s) { s.emitters[0].group = "fill"; },
       [](Scene& s) { s.emitters.emplace_back(); },
+      [](Scene& s) { s.emitters.emplace_back().group = "key"; },
       [](Scene& s) { s.cameras[0].fovX = 0.8f; },
       [](Scene& s) { s.cameras[0].filter = PixelFilter::box; },
       [](Scene& s) { s.hideEmitters = true; },

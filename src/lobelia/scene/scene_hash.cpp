@@ -1,10 +1,12 @@
-// Hash of everything in a scene that an image depends on: what saved lights and precomputed data
-// are checked against. Names and findings do not count. Not cryptographic.
+// Hash of everything in a scene that an image and its layers depend on: what saved lights and
+// checkpoints are checked against. Names (but for those of light groups, which name layers) and
+// findings do not count. Not cryptographic.
 #include <bit>
 #include <cstring>
 #include <type_traits>
 
 #include "lobelia/base/random.h"
+#include "lobelia/scene/light_groups.h"
 #include "lobelia/scene/scene.h"
 
 namespace lobelia {
@@ -104,6 +106,7 @@ class StreamHash {
   void add(const Emitter& e) {
     add(e.type), add(e.toWorld), add(e.radiance), add(e.scale), add(e.image), add(e.cutoff);
     add(e.beamWidth), add(e.pattern), add(e.fov), add(e.direction), add(e.angularRadius);
+    add(e.group == LightGroups::kDefaultGroup ? std::string() : e.group);
   }
   void add(const Mesh& m) {
     array(m.positions), array(m.normals), array(m.uvs), array(m.triangles);
