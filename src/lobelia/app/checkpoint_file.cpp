@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
 #include <charconv>
@@ -19,6 +20,9 @@ constexpr uint32_t kFileVersion = 1;
 constexpr const char* kCounters[] = {
     "path_rays", "shadow_rays",        "nonfinite",         "light_particles",     "lights_dropped",
     "paths_cut", "node_pairs_visited", "node_pairs_shaded", "specular_connections"};
+
+constexpr int64_t kSaveTimes = 10;  // between two saves passes so often the time of one,
+constexpr int64_t kLongestWait = 60'000'000'000;  // nanoseconds; but no longer than this
 
 using Lines = std::vector<std::pair<std::string, std::string>>;
 
@@ -55,6 +59,13 @@ std::string hashOf(const std::string& file) {
   return file.empty() ? "none" : fmt::format("{:016x}", store::hashBytes(readFile(file)));
 }
 
+// Highway's name of what the kernels run on, which takes sums in the order of its lanes and so
+// decides about last bits: of all that are compiled and that the processor has, the lowest bit.
+std::string simdTarget() {
+  const int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
+  return hwy::TargetName(usable & -usable);
+}
+
 // Both ways, so that a setting that only one side has shows too.
 std::vector<std::string> differences(const Lines& saved, const Lines& wanted) {
   std::vector<std::string> out;
@@ -84,6 +95,7 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
   Lines& s = identity.settings;
   const bool virtualLights = o.lights != "path" && o.lights != "light";
   s.emplace_back("version", kVersion);
+  s.emplace_back("SIMD", simdTarget());
   s.emplace_back("--lights", o.lights);
   s.emplace_back("--size", fmt::format("{}x{}", camera.width, camera.height));
   s.emplace_back("--crop", fmt::format("{},{},{},{}", camera.cropX0, camera.cropY0, camera.cropX1,
@@ -117,7 +129,7 @@ CheckpointFile::CheckpointFile(std::string file, RenderIdentity identity, double
       identity_(std::move(identity)),
       interval_(static_cast<int64_t>(std::min(interval, 1e9) * 1e9)),
       context_(context),
-      last_(nanosecondsNow()) {
+      due_(nanosecondsNow() + interval_) {
   if (!resume) return;
   if (std::filesystem::exists(file_)) {
     open();
@@ -141,14 +153,15 @@ void CheckpointFile::open() {
   }
 }
 
-bool CheckpointFile::due() const { return nanosecondsNow() - last_ > interval_; }
+bool CheckpointFile::due() const { return nanosecondsNow() > due_; }
 
 void CheckpointFile::markCounts() {
   for (const char* name : kCounters) marked_[name] = context_.statistics.count(name);
 }
 
-// A disk that is full now must not cost the picture.
+// A disk that is full now must not cost the picture, and a slow one not much of its time.
 void CheckpointFile::save(std::string_view stage, const StateFields& state) {
+  const int64_t begin = nanosecondsNow();
   try {
     store::Writer writer(kKind, kFileVersion, identity_.sceneHash);
     addText(writer, "settings", join(identity_.settings));
@@ -165,7 +178,8 @@ void CheckpointFile::save(std::string_view stage, const StateFields& state) {
     if (!failed_) context_.warning(fmt::format("no checkpoint: {}; the render goes on", e.what()));
     failed_ = true;
   }
-  last_ = nanosecondsNow();
+  const int64_t now = nanosecondsNow();
+  due_ = now + std::max(interval_, std::min(kSaveTimes * (now - begin), kLongestWait));
 }
 
 bool CheckpointFile::load(std::string_view stage, const StateFields& state) {

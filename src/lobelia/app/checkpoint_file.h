@@ -53,7 +53,7 @@ class CheckpointFile : public Checkpoints {
   Context& context_;
   std::optional<store::Reader> saved_;  // until a stage has loaded it
   Counts marked_, loaded_;
-  std::atomic<int64_t> last_;
+  std::atomic<int64_t> due_;  // when the next save is
   bool failed_ = false;
 };
 
