@@ -5,6 +5,7 @@
 #include <draco/compression/decode.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace lobelia::io::gltf {
@@ -37,6 +38,10 @@ class Start {
     for (int i = 0; i < count; ++i) value |= byte() << (8 * i);
     return value;
   }
+  bool atEnd() const { return at_ >= bytes_.size(); }
+  void skip(uint64_t count) {
+    at_ += static_cast<size_t>(std::min<uint64_t>(count, bytes_.size() - at_));
+  }
   uint64_t varint() {  // LEB128
     uint64_t value = 0;
     for (int shift = 0; shift < 35; shift += 7) {
@@ -52,6 +57,20 @@ class Start {
   size_t at_ = 0;
 };
 
+// Entries of a name and a value each, then what is below, in the order of a walk down.
+void skipMetadata(Start& start) {
+  uint64_t open = 1;
+  for (bool isFirst = true; open > 0 && !start.atEnd(); isFirst = false) {
+    --open;
+    if (!isFirst) start.skip(start.byte());
+    for (uint64_t entries = start.varint(); entries > 0 && !start.atEnd(); --entries) {
+      start.skip(start.byte());
+      start.skip(start.varint());
+    }
+    open += start.varint();
+  }
+}
+
 void checkCounts(Bytes bytes, const Json& extension) {
   constexpr uint64_t kMagic = 0x4f43415244;  // "DRACO"
   constexpr uint64_t kMetadata = 0x8000, kMesh = 1, kEdgebreaker = 1;
@@ -61,8 +80,13 @@ void checkCounts(Bytes bytes, const Json& extension) {
   const uint64_t major = start.byte(), minor = start.byte(), version = major << 8 | minor;
   const uint64_t type = start.byte(), method = start.byte(), flags = start.word(2);
   if (!isDraco || type != kMesh) return;  // the library refuses it
-  if ((flags & kMetadata) != 0)
-    extension.fail("the Draco data have metadata, which is not read; encode the mesh without");
+  if ((flags & kMetadata) != 0 && version >= 0x103) {
+    for (uint64_t attributes = start.varint(); attributes > 0 && !start.atEnd(); --attributes) {
+      start.varint();  // whose they are
+      skipMetadata(start);
+    }
+    skipMetadata(start);  // the mesh's
+  }
   uint64_t counts[2];
   const bool edgebreaker = method == kEdgebreaker;
   if (edgebreaker) {

@@ -147,6 +147,12 @@ BuiltMaterial Materials::create(const Source& from) {
   }
   const bool transmits = material.specTrans.value > 0 || material.specTrans.texture.valid();
   built.material = add(material);
+  if (built.emission && from.json["doubleSided"].boolean(false)) {
+    built.shinesBothWays = !transmits && from.json["alphaMode"].text("OPAQUE") != "BLEND";
+    if (!built.shinesBothWays)
+      import_.inform(from.json,
+                     "is doubleSided, but half-transparent: it shines to the front only");
+  }
   if (const Json info = from.json["normalTexture"]; info.exists() && !unlit) {
     if (const TextureHandle map = normalTexture(from, info); map.valid()) {
       built.material = wrap(MaterialType::normalMap, built.material);

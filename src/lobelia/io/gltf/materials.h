@@ -5,7 +5,9 @@
 //    to cull, closed objects look the same, and open ones are not holes.
 //  - alphaMode MASK and BLEND become an opacity by which rays pass; MASK's step is the power 64 of
 //    alpha / alphaCutoff, clamped to 1, where alpha comes from a texture or vertices.
-//  - Emission leaves the front of a surface only.
+//  - Emission leaves the front of a surface only; both sides of one that is doubleSided, unless it
+//  is
+//    half-transparent (transmission or BLEND), where a second layer would be seen.
 //  - KHR_materials_unlit emits its base colour and reflects nothing.
 //  - Occlusion textures are not used: light transport finds occlusion itself.
 //  - Normal maps and anisotropy need tangents. They follow the uv, not TANGENT, and since a shading
@@ -33,6 +35,7 @@ struct MaterialUse {
 struct BuiltMaterial {
   MaterialHandle material;
   std::optional<ColorParam> emission;
+  bool shinesBothWays = false;
 };
 
 class Materials {

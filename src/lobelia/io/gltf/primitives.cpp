@@ -43,6 +43,21 @@ class Attributes {
     count_ = values.count;
     return values;
   }
+  // KHR_draco_mesh_compression decodes to faces, also those of strips.
+  bool areFaces() const { return draco_.has_value(); }
+  // glTF 2.0, 3.7.3.3: joints are unsigned bytes or shorts, not normalised.
+  FloatArray readJoints(const std::string& name) const {
+    const Json where = primitive_["attributes"][name];
+    const Json accessor = document_.item("accessors", where);
+    const uint64_t type = accessor["componentType"].count();
+    if (type != 5121 && type != 5123)
+      where.fail(
+          fmt::format("its componentType is {}; it must be 5121 or 5123 (unsigned byte or "
+                      "short)",
+                      type));
+    if (accessor["normalized"].boolean(false)) where.fail("is normalized; joints must not be");
+    return read(name, "VEC4");
+  }
   std::vector<uint32_t> readIndices() const {
     const Json where = primitive_["indices"];
     std::vector<uint32_t> indices;
@@ -108,7 +123,7 @@ void skin(const Attributes& attributes, const Json& primitive, const std::vector
           Mesh& mesh) {
   std::vector<FloatArray> indices, weights;
   for (int set = 0; attributes.has(fmt::format("JOINTS_{}", set)); ++set) {
-    indices.push_back(attributes.read(fmt::format("JOINTS_{}", set), "VEC4"));
+    indices.push_back(attributes.readJoints(fmt::format("JOINTS_{}", set)));
     weights.push_back(attributes.read(fmt::format("WEIGHTS_{}", set), "VEC4"));
   }
   if (indices.empty())
@@ -220,7 +235,7 @@ Primitive addPrimitive(const Import& import, const Materials& materials, const J
   mesh.name = meshJson["name"].text("");
   if (mesh.name.empty()) mesh.name = "mesh";
   mesh.positions = vectors(attributes.readPositions());
-  mesh.triangles = trianglesOf(import, primitive, attributes.readIndices());
+  mesh.triangles = trianglesOf(import, primitive, attributes.readIndices(), attributes.areFaces());
   if (mesh.triangles.empty()) return out;
   if (attributes.has("NORMAL")) mesh.normals = vectors(attributes.read("NORMAL", "VEC3"));
   const UvSets uv = materials.uvSets(material);

@@ -10,6 +10,7 @@
 #include "lobelia/io/gltf/materials.h"
 #include "lobelia/io/gltf/primitives.h"
 #include "lobelia/io/gltf/views.h"
+#include "lobelia/io/light_backs.h"
 
 namespace lobelia::io {
 namespace gltf {
@@ -20,7 +21,7 @@ constexpr size_t kMaxInstances = 1u << 20;  // of a node, by EXT_mesh_gpu_instan
 class Reader {
  public:
   Reader(Document& document, const ReadSettings& settings, Scene& scene)
-      : import_{document, scene, settings}, materials_(import_) {}
+      : import_{document, scene, settings}, materials_(import_), backs_(scene) {}
 
   void read(Context& context);
 
@@ -36,6 +37,7 @@ class Reader {
 
   Import import_;
   Materials materials_;
+  LightBacks backs_;
   std::vector<Node> nodes_;
   std::vector<Channel> channels_;
   std::vector<Pose> poses_;
@@ -50,6 +52,7 @@ void Reader::read(Context& context) {
   world_ = worldMatrices(nodes_, poses_);
   for (size_t i = 0; i < world_.size(); ++i)
     if (!world_[i].isFinite()) nodes_[i].json.fail("its transform to the world is not finite");
+  informOfRanges(import_);
   for (const size_t node : sceneNodes()) {
     if (context.cancelled()) return;
     addNode(node);
@@ -100,11 +103,16 @@ std::vector<Mat4> Reader::placements(size_t node) const {
   std::map<std::string, FloatArray> values;
   std::optional<size_t> count;
   for (const std::string& name : attributes.members()) {
-    if (name.starts_with("_")) continue;  // an application's own
-    if (name != "TRANSLATION" && name != "ROTATION" && name != "SCALE")
+    const bool own = name.starts_with("_");  // an application's: only says how many there are
+    if (!own && name != "TRANSLATION" && name != "ROTATION" && name != "SCALE")
       attributes[name].fail("is unknown; it must be TRANSLATION, ROTATION or SCALE");
-    FloatArray array =
-        readFloats(import_.document, attributes[name], name == "ROTATION" ? "VEC4" : "VEC3");
+    FloatArray array;
+    if (own) {
+      array.count = static_cast<size_t>(
+          import_.document.item("accessors", attributes[name])["count"].count());
+    } else {
+      array = readFloats(import_.document, attributes[name], name == "ROTATION" ? "VEC4" : "VEC3");
+    }
     if (array.count > kMaxInstances)
       attributes[name].fail(
           fmt::format("places {} instances; at most {} are read", array.count, kMaxInstances));
@@ -196,6 +204,10 @@ void Reader::addMesh(size_t node) {
 void Reader::addInstances(const Json& node, const Json& primitiveJson, const Primitive& primitive,
                           const std::vector<Mat4>& toWorld) {
   Scene& scene = import_.scene;
+  const Json material = materials_.of(primitiveJson);
+  const bool tangents = materials_.uvSets(material).tangents;
+  const BuiltMaterial* builds[2] = {};  // for parts that are mirrored or not
+  const std::string name = node["name"].text("");
   size_t flat = 0;
   for (const Mat4& matrix : toWorld) {
     if (!inverse(matrix)) {
@@ -203,25 +215,26 @@ void Reader::addInstances(const Json& node, const Json& primitiveJson, const Pri
       continue;
     }
     for (const Part& part : primitive.parts) {
-      const bool mirrored = part.mirrored != (matrix.determinant3() < 0);
-      const BuiltMaterial& built =
-          materials_.build(materials_.of(primitiveJson),
-                           {primitive.vertexColor, primitive.vertexAlpha,
-                            mirrored && materials_.uvSets(materials_.of(primitiveJson)).tangents});
+      const bool mirrored = tangents && part.mirrored != (matrix.determinant3() < 0);
+      const BuiltMaterial*& built = builds[mirrored ? 1 : 0];
+      if (!built)
+        built =
+            &materials_.build(material, {primitive.vertexColor, primitive.vertexAlpha, mirrored});
       Instance instance;
       instance.mesh = part.mesh;
       instance.toWorld = Transform(matrix);
-      instance.material = built.material;
-      instance.name = node["name"].text("");
-      if (built.emission) {
+      instance.material = built->material;
+      instance.name = name;
+      if (built->emission) {
         Emitter emitter;
         emitter.type = EmitterType::area;
         emitter.name = instance.name;
-        emitter.radiance = *built.emission;
+        emitter.radiance = *built->emission;
         scene.emitters.push_back(std::move(emitter));
         instance.emitter = {static_cast<uint32_t>(scene.emitters.size() - 1)};
       }
       scene.instances.push_back(std::move(instance));
+      if (built->emission && built->shinesBothWays) backs_.add(scene.instances.size() - 1);
     }
   }
   if (flat > 0)

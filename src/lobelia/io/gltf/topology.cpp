@@ -10,7 +10,7 @@ enum Mode : uint64_t { points, lines, lineLoop, lineStrip, triangles, triangleSt
 }  // namespace
 
 std::vector<Vec3u> trianglesOf(const Import& import, const Json& primitive,
-                               const std::vector<uint32_t>& indices) {
+                               const std::vector<uint32_t>& indices, bool areFaces) {
   const uint64_t mode = primitive["mode"].count(triangles);
   if (mode > triangleFan) primitive["mode"].fail(fmt::format("is {}; it must be 0 to 6", mode));
   std::vector<Vec3u> out;
@@ -21,7 +21,7 @@ std::vector<Vec3u> trianglesOf(const Import& import, const Json& primitive,
     return out;
   }
   const size_t n = indices.size();
-  if (mode == triangles) {
+  if (mode == triangles || areFaces) {
     if (n % 3 != 0)
       import.warn(primitive, fmt::format("{} corners do not make triangles; the last {} are left "
                                          "out",

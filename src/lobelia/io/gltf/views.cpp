@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "lobelia/io/spot_falloff.h"
 
 namespace lobelia::io::gltf {
 namespace {
@@ -90,6 +93,21 @@ void setClip(const Json& lens, Camera& camera) {
   if (!(camera.farClip > camera.nearClip)) lens["zfar"].fail("must be above znear");
 }
 
+// The extension's reference: the square of a ramp in the cosine.
+void addSpot(const Import& import, const Json& spot, Emitter& light) {
+  const double outer = spot["outerConeAngle"].numberWithin(0, 1.5708, 0.7853981633974483);
+  const double inner = spot["innerConeAngle"].numberWithin(0, 1.5708, 0);
+  if (!(outer > inner)) spot["outerConeAngle"].fail("must be larger than innerConeAngle");
+  const double end = std::cos(outer), start = std::cos(inner);
+  shapeSpot(import.scene, light, static_cast<float>(outer), fmt::format("spot-{}-{}", outer, inner),
+            [&](double cosine) {
+              // Cones that differ by less than cosines can tell have a sharp edge.
+              if (!(start > end)) return cosine >= end ? 1.0 : 0.0;
+              const double ramp = std::clamp((cosine - end) / (start - end), 0.0, 1.0);
+              return ramp * ramp;
+            });
+}
+
 }  // namespace
 
 void addCamera(const Import& import, const Hierarchy& hierarchy, size_t node, const Mat4& toWorld) {
@@ -140,6 +158,18 @@ void addCamera(const Import& import, const Hierarchy& hierarchy, size_t node, co
   import.scene.cameras.push_back(std::move(camera));
 }
 
+void informOfRanges(const Import& import) {
+  const Json lights = import.document.root().extension("KHR_lights_punctual")["lights"];
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const Json range = lights.at(i)["range"];
+    if (!range.exists()) continue;
+    import.inform(range,
+                  "is not used, here and in any other light: light falls off with the square "
+                  "of the distance and has no end");
+    return;
+  }
+}
+
 void addLight(const Import& import, const Json& node, const Mat4& toWorld) {
   const Json index = node.extension("KHR_lights_punctual")["light"];
   const Json lights = import.document.root().extension("KHR_lights_punctual")["lights"];
@@ -162,12 +192,7 @@ void addLight(const Import& import, const Json& node, const Mat4& toWorld) {
   } else if (type == "point") {
     light.type = EmitterType::point;
   } else if (type == "spot") {
-    light.type = EmitterType::spot;
-    const Json spot = json["spot"];
-    const double outer = spot["outerConeAngle"].numberWithin(0, 1.5708, 0.7853981633974483);
-    const double inner = spot["innerConeAngle"].numberWithin(0, 1.5708, 0);
-    if (!(outer > inner)) spot["outerConeAngle"].fail("must be larger than innerConeAngle");
-    light.cutoff = static_cast<float>(outer), light.beamWidth = static_cast<float>(inner);
+    addSpot(import, json["spot"], light);
   } else {
     json["type"].fail(fmt::format("'{}' is unknown; it must be directional, point or spot{}", type,
                                   suggestion(type, {"directional", "point", "spot"})));

@@ -15,8 +15,9 @@ struct Hierarchy {
 // above it is animated. Films are 768 pixels high.
 void addCamera(const Import& import, const Hierarchy& hierarchy, size_t node, const Mat4& toWorld);
 // KHR_lights_punctual. Candela and lux are taken as W/sr and W/m^2: glTF's emissive surfaces are in
-// no other unit than its lights. Lights have no end (`range` is ignored). A spot's intensity falls
-// linearly in the angle from innerConeAngle to outerConeAngle (glTF: quadratically in its cosine).
+// no other unit than its lights. Lights have no end (`range` is ignored).
 void addLight(const Import& import, const Json& node, const Mat4& toWorld);
+// Says once in a file that ranges of lights are ignored.
+void informOfRanges(const Import& import);
 
 }  // namespace lobelia::io::gltf

@@ -7,13 +7,11 @@
 
 #include <cmath>
 
-#include "lobelia/io/mesh_io.h"
+#include "lobelia/io/light_backs.h"
 #include "lobelia/io/pbrt/reader.h"
 
 namespace lobelia::io::pbrt {
 namespace {
-
-constexpr float kBackDistance = 1e-4f;
 
 double areaOf(const Scene& scene, const Instance& instance) {
   const Mesh& mesh = scene[instance.mesh];
@@ -92,27 +90,7 @@ void Reader::finishAreaLights() {
   }
 }
 
-void Reader::makeTwoSided(size_t index) {
-  Instance back = scene_.instances[index];
-  Mesh mesh = scene_[back.mesh];
-  mesh.name += "-back";
-  mesh.isUnitSphere = false;
-  std::vector<Vec3f> normals = mesh.normals;
-  if (normals.empty()) {
-    Mesh smooth = mesh;
-    computeNormals(smooth, -1);
-    normals = smooth.normals;
-    normals.resize(mesh.positions.size());
-  }
-  Bounds3f box;
-  for (const Vec3f& p : mesh.positions) box.add(p);
-  const float distance = (back.flipNormals ? 1.f : -1.f) * kBackDistance * box.radius();
-  for (size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i] += normals[i] * distance;
-  back.mesh = add(std::move(mesh));
-  back.flipNormals = !back.flipNormals;
-  back.name += "-back";
-  scene_.instances.push_back(std::move(back));
-}
+void Reader::makeTwoSided(size_t index) { LightBacks(scene_).add(index); }
 
 // The sensor's exposure scales the image, and so all light.
 void Reader::applySensor() {

@@ -2,7 +2,9 @@
 //
 // Levels. PBRT divides a light's scale by the photometric value of its spectrum, so that any light
 // has Y = scale; of an rgb it divides by that of the colour space's illuminant, so that L = (1, 1,
-// 1) is a pixel of (1, 1, 1). `power` and `illuminance` are photometric too.
+// 1) is a pixel of (1, 1, 1). `power` and `illuminance` are photometric too. PBRT reckons a map's
+// illuminance on its upper side with 2 pi over the number of all pixels, where those pixels' solid
+// angle is 4 pi over it: a map gives twice the illuminance asked for, there and so here.
 //
 // Differences: a spot's smooth step in the cosine is a picture on our spot's tangent plane, or a
 // goniometric light when it is wider than that allows. PBRT's projection light gives the intensity
@@ -16,13 +18,13 @@
 #include "lobelia/io/image_io.h"
 #include "lobelia/io/pbrt/octahedral.h"
 #include "lobelia/io/pbrt/reader.h"
+#include "lobelia/io/spot_falloff.h"
 
 namespace lobelia::io::pbrt {
 namespace {
 
 constexpr float kDegree = kPi / 180;
-constexpr float kWidestPicture = 75;  // degrees from the axis
-constexpr int kSpotPicture = 512, kSpotRows = 4096, kMinProjection = 256;
+constexpr int kMinProjection = 256;
 constexpr int kMaxOctahedral = 8192;
 
 // From +z to the direction, about the origin, then to the place.
@@ -30,8 +32,8 @@ Mat4 facing(Vec3d from, Vec3d to, const Location& where) {
   const Vec3d d = to - from;
   if (!(lengthSquared(d) > 0)) throw InputError(where, "'from' and 'to' are the same point");
   const Vec3d z = normalize(d);
-  const Vec3d helper = std::abs(z.x) > std::abs(z.y) ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0);
-  const Vec3d x = normalize(cross(helper, z)), y = cross(z, x);
+  const Vec3d across = std::abs(z.x) > std::abs(z.y) ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0);
+  const Vec3d x = normalize(cross(across, z)), y = cross(z, x);
   Mat4 m;
   m.m[0] = {x.x, y.x, z.x, from.x};
   m.m[1] = {x.y, y.y, z.y, from.y};
@@ -129,45 +131,24 @@ Emitter Reader::spotLight(Parameters& in) {
   Emitter e;
   Rgb intensity = lightColor(in, "I");
   const float cone = in.number("coneangle", 30.f), delta = in.number("conedeltaangle", 5.f);
-  if (!(cone > 0 && cone <= 180 && delta >= 0 && delta <= cone))
+  if (!(cone > 0 && cone <= 180 && delta >= 0))
     throw InputError(in.where(),
-                     "the spot's angles are impossible; 0 <= conedeltaangle <= "
-                     "coneangle <= 180");
+                     "the spot's angles are impossible; 0 < coneangle <= 180, 0 <= conedeltaangle");
   const float cosEnd = std::cos(cone * kDegree), cosStart = std::cos((cone - delta) * kDegree);
   if (const float power = in.number("power", -1.f); power > 0)
     intensity *= power / (kTwoPi * ((1 - cosStart) + (cosStart - cosEnd) / 2));
   e.radiance = intensity;
   e.toWorld = placement(
       state_.ctm * facing(in.point("from", {}), in.point("to", {0, 0, 1}), in.where()), in.where());
-  Image picture;
-  picture.channels = 1;
-  if (cone > kWidestPicture) {
-    e.type = EmitterType::goniometric;
-    picture.width = 1, picture.height = kSpotRows;
-    for (int y = 0; y < picture.height; ++y)
-      picture.pixels.push_back(
-          smoothStep(std::cos(centre(picture, 0, y).y * kPi), cosEnd, cosStart));
-    scene_.images.push_back(std::move(picture));
-    e.image = {static_cast<uint32_t>(scene_.images.size() - 1)};
+  const float cutoff = cone * kDegree;
+  if (delta == 0 && cutoff <= kWidestSpot) {
+    e.type = EmitterType::spot;
+    e.cutoff = e.beamWidth = cutoff;
     return e;
   }
-  e.type = EmitterType::spot;
-  e.cutoff = e.beamWidth = cone * kDegree;
-  if (delta == 0) return e;
-  picture.width = picture.height = kSpotPicture;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const Vec2f p = centre(picture, x, y) * 2.f - Vec2f(1, 1);
-      const float tangent = std::tan(e.cutoff) * std::sqrt(p.x * p.x + p.y * p.y);
-      picture.pixels.push_back(smoothStep(1 / std::sqrt(1 + tangent * tangent), cosEnd, cosStart));
-    }
-  }
-  scene_.images.push_back(std::move(picture));
-  Texture t;
-  t.type = TextureType::bitmap;
-  t.wrap = Wrap::clamp;
-  t.image = {static_cast<uint32_t>(scene_.images.size() - 1)};
-  e.pattern = add(std::move(t));
+  shapeSpot(scene_, e, cutoff, fmt::format("spot-{}-{}", cone, delta), [&](double cosine) {
+    return static_cast<double>(smoothStep(static_cast<float>(cosine), cosEnd, cosStart));
+  });
   return e;
 }
 
@@ -273,11 +254,11 @@ void Reader::infiniteLight(Parameters& in) {
   if (!(e.scale >= 0)) throw InputError(in.where(), "the light's scale is below 0");
   const Image image = squareImage(*file, in.where());
   if (lux > 0) {
-    // Of the upper hemisphere, as PBRT reckons.
+    // As PBRT reckons (see above).
     const double mean = meanOf(image, [&](int x, int y, Rgb c) {
       return luminance(c) * std::max(0.f, directionFromOctahedral(centre(image, x, y)).z);
     });
-    if (mean > 0) e.scale *= lux / (4 * kPi * static_cast<float>(mean));
+    if (mean > 0) e.scale *= lux / (kTwoPi * static_cast<float>(mean));
   }
   scene_.images.push_back(environmentFromOctahedral(image));
   e.image = {static_cast<uint32_t>(scene_.images.size() - 1)};
