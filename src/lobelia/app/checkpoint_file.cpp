@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <charconv>
@@ -10,6 +9,7 @@
 #include <filesystem>
 
 #include "lobelia/base/file.h"
+#include "lobelia/gather/simd_target.h"
 #include "lobelia/version.h"
 
 namespace lobelia::app {
@@ -57,13 +57,6 @@ Lines parse(const std::string& text) {
 
 std::string hashOf(const std::string& file) {
   return file.empty() ? "none" : fmt::format("{:016x}", store::hashBytes(readFile(file)));
-}
-
-// Highway's name of what the kernels run on, which takes sums in the order of its lanes and so
-// decides about last bits: of all that are compiled and that the processor has, the lowest bit.
-std::string simdTarget() {
-  const int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
-  return hwy::TargetName(usable & -usable);
 }
 
 // Both ways, so that a setting that only one side has shows too.
