@@ -50,8 +50,12 @@ const char* name(Severity severity) {
   return "";
 }
 
+Json describe(const Bounds3f& box) {  // null: of nothing
+  if (box.empty()) return nullptr;
+  return {{"lo", {box.lo.x, box.lo.y, box.lo.z}}, {"hi", {box.hi.x, box.hi.y, box.hi.z}}};
+}
+
 Json describe(const Scene& scene) {
-  const Bounds3f box = bounds(scene);
   Json emitters = Json::object();
   for (const Emitter& emitter : scene.emitters) {
     const std::string key = name(emitter.type);
@@ -71,27 +75,31 @@ Json describe(const Scene& scene) {
                         {"where", toString(finding.where)},
                         {"message", finding.message}});
   }
-  return {
-      {"scene", scene.file.empty() ? scene.name : scene.file},
-      {"triangles", triangleCount(scene)},
-      {"meshes", scene.meshes.size()},
-      {"instances", scene.instances.size()},
-      {"materials", scene.materials.size()},
-      {"textures", scene.textures.size()},
-      {"images", scene.images.size()},
-      {"emitters", emitters},
-      {"light_groups", groups},
-      {"cameras", cameras},
-      {"bounds", {{"lo", {box.lo.x, box.lo.y, box.lo.z}}, {"hi", {box.hi.x, box.hi.y, box.hi.z}}}},
-      {"max_depth", scene.maxDepth},
-      {"hash", fmt::format("{:016x}", hash(scene))},
-      {"findings", findings}};
+  return {{"scene", scene.file.empty() ? scene.name : scene.file},
+          {"triangles", triangleCount(scene)},
+          {"meshes", scene.meshes.size()},
+          {"instances", scene.instances.size()},
+          {"materials", scene.materials.size()},
+          {"textures", scene.textures.size()},
+          {"images", scene.images.size()},
+          {"emitters", emitters},
+          {"light_groups", groups},
+          {"cameras", cameras},
+          {"bounds", describe(bounds(scene))},
+          {"max_depth", scene.maxDepth},
+          {"hash", fmt::format("{:016x}", hash(scene))},
+          {"findings", findings}};
+}
+
+std::string text(const Json& value) {
+  if (value.is_null()) return "empty";
+  return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 void printText(const Json& json) {
   for (const auto& [key, value] : json.items()) {
     if (key == "findings") continue;
-    fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    fmt::print("{:<10} {}\n", key, text(value));
   }
   for (const Json& finding : json["findings"]) {
     fmt::print("{}: {}: {}\n", finding["severity"].get<std::string>(),

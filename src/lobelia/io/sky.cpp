@@ -160,8 +160,14 @@ void applySky(Scene& scene, const std::string& text) {
                            static_cast<float>((*values)[3])});
   settings.sun = {double{sun.x}, double{sun.y}, double{sun.z}};
   settings.below = BelowHorizon::ground;
-  const Sky sky = makeSky(settings, {"--sky " + text, 0, 0});
+  const Location where{"--sky " + text, 0, 0};
+  const Sky sky = makeSky(settings, where);
 
+  if (maxComponent(sky.sunIrradiance) <= 0) {
+    Finding finding;
+    finding.where = where, finding.message = "the sun has set: it gives no light";
+    scene.findings.push_back(std::move(finding));
+  }
   const auto replace = [&](const Emitter& emitter, auto&& isReplaced) {
     bool placed = false;
     for (Emitter& other : scene.emitters) {
