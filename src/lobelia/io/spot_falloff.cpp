@@ -28,9 +28,9 @@ Image rows(const std::string& name, const SpotFalloff& falloff) {
   Image image;
   image.name = name;
   image.width = 1, image.height = kRows, image.channels = 1;
-  for (int y = 0; y < kRows; ++y)
+  for (int y = 0; y < kRows; ++y)  // the first and the last are the poles
     image.pixels.push_back(
-        static_cast<float>(falloff(std::cos(centre(y, kRows) * static_cast<double>(kPi)))));
+        static_cast<float>(falloff(std::cos(y * static_cast<double>(kPi) / (kRows - 1)))));
   return image;
 }
 

@@ -140,7 +140,8 @@ Emitter Reader::spotLight(Parameters& in) {
   e.radiance = intensity;
   e.toWorld = placement(
       state_.ctm * facing(in.point("from", {}), in.point("to", {0, 0, 1}), in.where()), in.where());
-  const float cutoff = cone * kDegree;
+  // A delta of more than twice the cone turns PBRT's step around: dark in the cone, lit outside.
+  const float cutoff = delta > 2 * cone ? kPi : cone * kDegree;
   if (delta == 0 && cutoff <= kWidestSpot) {
     e.type = EmitterType::spot;
     e.cutoff = e.beamWidth = cutoff;

@@ -8,7 +8,8 @@
 //  - conductor with a textured reflectance: that reflectance at every angle, where PBRT's rises to
 //    white at grazing ones.
 //  - dielectric: one index of refraction, that of the d line; no dispersion.
-//  - diffusetransmission: a mixture of a diffuse reflector and a diffuse transmitter.
+//  - diffusetransmission scatters alike on both sides; where reflectance and transmittance add up
+//    to more than one it is not scaled down (PBRT does not either).
 // Surfaces below an alpha of 1e-3 are smooth, as in PBRT.
 #include <fmt/format.h>
 
@@ -87,9 +88,6 @@ MaterialHandle Reader::makeMaterial(const std::string& type, const std::string& 
   if (type == "mix") {
     handle = mixture(in);
     twoSided = false;
-  } else if (type == "diffusetransmission") {
-    handle = diffuseTransmission(in);
-    twoSided = false;
   } else {
     Material m;
     if (type == "diffuse") {
@@ -102,6 +100,9 @@ MaterialHandle Reader::makeMaterial(const std::string& type, const std::string& 
       m = coatedConductor(in);
     } else if (type == "dielectric" || type == "thindielectric") {
       m = dielectric(in, type == "thindielectric");
+      twoSided = false;
+    } else if (type == "diffusetransmission") {
+      m = diffuseTransmission(in);
       twoSided = false;
     } else if (type == "interface" || type.empty()) {
       m.type = MaterialType::null;
@@ -254,28 +255,14 @@ Material Reader::dielectric(Parameters& in, bool thin) {
   return m;
 }
 
-// Both parts over the shares of their strengths: with textures, halves.
-MaterialHandle Reader::diffuseTransmission(Parameters& in) {
+// One material with both lobes, on both sides.
+Material Reader::diffuseTransmission(Parameters& in) {
   const ColorParam scale = Rgb(in.number("scale", 1.f));
-  const ColorParam r = product(colorParam(in, "reflectance", Rgb(0.25f)), scale);
-  const ColorParam t = product(colorParam(in, "transmittance", Rgb(0.25f)), scale);
-  float share = 0.5f;
-  if (!r.texture.valid() && !t.texture.valid()) {
-    const float sum = maxComponent(r.value) + maxComponent(t.value);
-    if (sum > 0) share = maxComponent(t.value) / sum;
-  }
-  Material reflector, transmitter, both;
-  if (share < 1) reflector.diffuse = product(r, Rgb(1 / (1 - share)));
-  transmitter.type = MaterialType::diffuseTransmitter;
-  if (share > 0) transmitter.transmittance = product(t, Rgb(1 / share));
-  Material front;
-  front.type = MaterialType::twoSided;
-  front.a = add(std::move(reflector));
-  both.type = MaterialType::blend;
-  both.a = add(std::move(front));
-  both.b = add(std::move(transmitter));
-  both.weight = share;
-  return add(std::move(both));
+  Material m;
+  m.type = MaterialType::diffuseTransmitter;
+  m.diffuse = product(colorParam(in, "reflectance", Rgb(0.25f)), scale);
+  m.transmittance = product(colorParam(in, "transmittance", Rgb(0.25f)), scale);
+  return m;
 }
 
 MaterialHandle Reader::mixture(Parameters& in) {

@@ -2,7 +2,10 @@
 // as PBRT-v4 uses it (Pharr, Jakob, Humphreys 2023, section 3.8.3).
 //
 // Resampling: the octahedral image has N^2 texels of equal solid angle, the result 2N x N; each of
-// its texels is the mean of 4 x 4 directions, looked up without interpolation as PBRT does.
+// its texels is the mean of 4 x 4 directions, looked up without interpolation as PBRT does. Texels
+// lie where images over directions have them (path/spherical_image.h, environments and goniometric
+// lights alike): column i about (i + 1/2) / 2N of a turn, row j about j / (N - 1) from pole to
+// pole.
 #include "lobelia/io/pbrt/octahedral.h"
 
 #include <cmath>
@@ -33,7 +36,10 @@ Image resample(const Image& square, int channels, const F& direction) {
   out.channels = channels;
   const auto stride = static_cast<size_t>(out.width) * static_cast<size_t>(channels);
   out.pixels.resize(stride * static_cast<size_t>(out.height));
+  const auto cells = static_cast<float>(std::max(out.height - 1, 1));  // from pole to pole
   parallelFor(static_cast<size_t>(out.height), 8, [&](size_t y) {
+    const float top = std::max(static_cast<float>(y) - 0.5f, 0.f) / cells;
+    const float bottom = std::min(static_cast<float>(y) + 0.5f, cells) / cells;
     for (int x = 0; x < out.width; ++x) {
       Rgb sum;
       float weights = 0;
@@ -41,7 +47,7 @@ Image resample(const Image& square, int channels, const F& direction) {
         const float du = (static_cast<float>(i % kSubsamples) + 0.5f) / kSubsamples;
         const float dv = (static_cast<float>(i / kSubsamples) + 0.5f) / kSubsamples;
         const float u = (static_cast<float>(x) + du) / static_cast<float>(out.width);
-        const float v = (static_cast<float>(y) + dv) / static_cast<float>(out.height);
+        const float v = top + (bottom - top) * dv;
         const float weight = std::sin(v * kPi);  // solid angle
         sum += lookUp(square, direction(u, v)) * weight;
         weights += weight;

@@ -131,7 +131,7 @@ class Reader {
   Material conductor(Parameters& in, const std::string& prefix);
   Material coatedConductor(Parameters& in);
   Material dielectric(Parameters& in, bool thin);
-  MaterialHandle diffuseTransmission(Parameters& in);
+  Material diffuseTransmission(Parameters& in);
   MaterialHandle mixture(Parameters& in);
   Material standIn(const std::string& type, Parameters& in);
   struct Roughness {
