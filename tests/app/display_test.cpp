@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/moving_scene.h"
+#include "lobelia/app/bounded_call.h"
 #include "lobelia/app/viewer_socket.h"
 #include "lobelia/base/error.h"
 #include "lobelia/io/image_io.h"
@@ -181,6 +182,13 @@ class DisplayTest : public ::testing::Test {
   const TemporaryFolder folder_;
   const std::string scene_ = test::writeMovingScene(folder_);
 };
+
+TEST(BoundedCall, WhatNeverEndsIsLeftAlone) {
+  EXPECT_EQ(app::calledWithin(60, [] { return 7; }), 7);
+  const auto gate = std::make_shared<std::promise<int>>();  // never opened while we wait
+  EXPECT_EQ(app::calledWithin(0.01, [gate] { return gate->get_future().get(); }), std::nullopt);
+  gate->set_value(1);
+}
 
 TEST_F(DisplayTest, ShowsThePictureOfEveryMethod) {
   for (const char* method :

@@ -11,7 +11,9 @@
 #include <charconv>
 #include <cstring>
 #include <memory>
+#include <optional>
 
+#include "lobelia/app/bounded_call.h"
 #include "lobelia/base/context.h"
 #include "lobelia/base/error.h"
 
@@ -38,6 +40,25 @@ int connectWithin(int handle, const addrinfo& to, double seconds) {
   int error = 0;
   socklen_t size = sizeof(error);
   return getsockopt(handle, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
+}
+
+constexpr double kLookupSeconds = 5;
+
+struct Addresses {
+  int error = 0;  // getaddrinfo()'s
+  std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> list{nullptr, &freeaddrinfo};
+};
+
+// Of a name server that does not answer: after half a minute or more.
+Addresses addressesOf(const ViewerAddress& address) {
+  addrinfo wanted{};
+  wanted.ai_family = AF_UNSPEC;
+  wanted.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  Addresses out;
+  out.error = getaddrinfo(address.host.c_str(), address.port.c_str(), &wanted, &found);
+  if (out.error == 0) out.list.reset(found);
+  return out;
 }
 
 }  // namespace
@@ -71,15 +92,12 @@ void ViewerSocket::close() {
 }
 
 std::string ViewerSocket::connect(const ViewerAddress& address, double seconds) {
-  addrinfo wanted{};
-  wanted.ai_family = AF_UNSPEC;
-  wanted.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (const int error = getaddrinfo(address.host.c_str(), address.port.c_str(), &wanted, &found))
-    return gai_strerror(error);
-  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, &freeaddrinfo);
+  const std::optional<Addresses> host =
+      calledWithin(kLookupSeconds, [address] { return addressesOf(address); });
+  if (!host) return "its name is not found in time";
+  if (host->error != 0) return gai_strerror(host->error);
   std::string reason = "the host has no address";
-  for (const addrinfo* a = found; a != nullptr; a = a->ai_next) {
+  for (const addrinfo* a = host->list.get(); a != nullptr; a = a->ai_next) {
     handle_ = socket(a->ai_family, a->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, a->ai_protocol);
     const int error = handle_ < 0 ? errno : connectWithin(handle_, *a, seconds);
     if (error == 0) return "";

@@ -21,7 +21,8 @@ class ViewerSocket {
   ViewerSocket(const ViewerSocket&) = delete;
   ViewerSocket& operator=(const ViewerSocket&) = delete;
 
-  // Tries all addresses of the host, each for so long. Returns why it failed, or "".
+  // Tries all addresses of the host, each for so long, some seconds at most after it looks up its
+  // name. Returns why it failed, or "".
   std::string connect(const ViewerAddress& address, double seconds);
   // Sends all; gives up when nothing could be sent for so long. Returns why it failed, or "".
   std::string send(std::span<const std::byte> bytes, double seconds);
