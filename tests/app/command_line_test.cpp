@@ -77,6 +77,13 @@ TEST(CommandLine, BadInputIsThree) {
   expectFailure("render " + (folder / "missing.xml") + out, 3, "missing.xml");
   expectFailure("info " + (folder / "missing.xml"), 3, "missing.xml");
   expectFailure("info cornel", 3, "did you mean 'cornell'");
+  test::writeText(folder / "empty.xml",
+                  "<scene version=\"3.0.0\"><sensor type=\"perspective\"/></scene>");
+  const ProgramResult empty = runProgram("info --json " + (folder / "empty.xml"));
+  ASSERT_EQ(empty.exitCode, 0) << empty.err;
+  EXPECT_TRUE(nlohmann::json::parse(empty.out)["bounds"].is_null()) << empty.out;
+  EXPECT_NE(runProgram("info " + (folder / "empty.xml")).out.find("bounds     empty\n"),
+            std::string::npos);
   test::writeText(folder / "scene.blend", "x");
   expectFailure("render " + (folder / "scene.blend") + out, 3, "scene.blend");
   test::writeText(folder / "cut.xml", "<scene version='3.0.0'>\n<shape type='sphere'>\n");
@@ -349,6 +356,10 @@ TEST(CommandLine, SkyLightsBuiltInScenes) {
   EXPECT_EQ(runProgram(kSmall + ("--sky 3,0.3,1,0.4 --spp 4 -o " + out)).exitCode, 0);
   EXPECT_GT(io::readFilm(out).pixelCount(), 0u);
   expectFailure(kSmall + ("--sky 3,1 -o " + out), 2, "TURBIDITY");
+  const ProgramResult night = runProgram(
+      "render cornell --detail 0.1 --size 8x8 --spp 1 --num-lights 16 --sky 3,0,-1,0 -o " + out);
+  EXPECT_EQ(night.exitCode, 0) << night.err;
+  EXPECT_NE(night.err.find("the sun has set"), std::string::npos) << night.err;
   expectFailure(kSmall + ("--sky 30,0,1,0 -o " + out), 3, "turbidity");
   expectFailure(kSmall + ("--sky 3,0,1,0 --environment x.exr -o " + out), 2, "--environment");
 }

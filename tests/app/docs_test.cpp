@@ -72,6 +72,23 @@ TEST(Docs, RepositoryHoldsTheGalleryThatTheProgramPrints) {
         << name;
 }
 
+// Every picture that the gallery shows is there, and every picture that is there is shown.
+TEST(Docs, GalleryPicturesAreThere) {
+  const std::string text = readText(kSource + "/docs/gallery.md");
+  size_t shown = 0;
+  for (size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
+    const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
+    if (!target.starts_with("gallery/")) continue;
+    ++shown;
+    EXPECT_TRUE(std::filesystem::is_regular_file(kSource + "/docs/" + target)) << target;
+  }
+  EXPECT_GE(shown, builtin::builtinSceneNames().size());
+  for (const auto& file : std::filesystem::directory_iterator(kSource + "/docs/gallery")) {
+    const std::string name = file.path().filename().string();
+    EXPECT_NE(text.find("(gallery/" + name + ")"), std::string::npos) << name << " is not shown";
+  }
+}
+
 TEST(Docs, GalleryPicturesAreSmall) {
   for (const auto& file : std::filesystem::directory_iterator(kSource + "/docs/gallery"))
     EXPECT_LE(file.file_size(), 40u * 1024) << file.path();
