@@ -258,6 +258,23 @@ TEST(PbrtLights, AreaLights) {
   EXPECT_NEAR(colorOf(power.emitters[0]).x, 10 / (kPi * .5f), 1e-3f);
   EXPECT_NEAR(colorOf(power.emitters[1]).x, 10 / (kPi * 2), 1e-3f);
 
+  // As in PBRT each triangle has that power, and each patch; a sphere is one shape.
+  const auto radianceOf = [](const std::string& shape, bool isUneven) {
+    const Scene scene = readPbrtWorld("AreaLightSource \"diffuse\" \"float power\" 10\n" + shape);
+    EXPECT_EQ(contains(findingsOf(scene), "differ in area"), isUneven);
+    return colorOf(scene.emitters.at(0)).x;
+  };
+  const std::string corners = "\"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] ";
+  EXPECT_NEAR(
+      radianceOf("Shape \"trianglemesh\" " + corners + "\"integer indices\" [0 1 2 1 3 2]", false),
+      20 / kPi, 1e-3f);
+  EXPECT_NEAR(radianceOf("Shape \"bilinearmesh\" " + corners, false), 10 / kPi, 1e-3f);
+  EXPECT_NEAR(radianceOf("Shape \"sphere\"", false), 10 / (4 * kPi * kPi), 1e-2f);
+  EXPECT_NEAR(radianceOf("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 0 -3 0] \"integer "
+                         "indices\" [0 1 2 0 3 1]",
+                         true),
+              20 / (2 * kPi), 1e-3f);
+
   const Scene both = readPbrtWorld(
       std::string("AreaLightSource \"diffuse\" \"bool twosided\" true\n") + kTriangle);
   ASSERT_EQ(both.instances.size(), 2u);

@@ -1,11 +1,16 @@
 // Area lights, and what can only be said of them when all meshes are read.
 //
-// `power` is that of the whole shape here; PBRT gives it to each triangle of a mesh. Lights that
-// shine from both sides get a second instance for the back, set back by 1e-4 of the shape's size,
-// as an emitter of ours has one side.
+// `power` goes to each of PBRT's shapes, so to each triangle of a mesh and each patch of a
+// bilinearmesh. Emitters of ours have one radiance: all parts of a mesh get the same, so that their
+// powers add up to what PBRT's do. Where the parts differ in area PBRT's smaller ones are brighter,
+// which is said. Quadrilaterals of PLY files, one shape there, count as two triangles.
+//
+// Lights that shine from both sides get a second instance for the back, set back by 1e-4 of the
+// shape's size, as an emitter of ours has one side.
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "lobelia/io/light_backs.h"
 #include "lobelia/io/pbrt/reader.h"
@@ -13,16 +18,27 @@
 namespace lobelia::io::pbrt {
 namespace {
 
-double areaOf(const Scene& scene, const Instance& instance) {
+constexpr double kSameArea = 1e-3;  // relative
+
+struct Areas {
+  double sum = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+  size_t count = 0;  // of triangles that have one
+};
+
+Areas areasOf(const Scene& scene, const Instance& instance) {
   const Mesh& mesh = scene[instance.mesh];
-  double area = 0;
+  Areas areas;
   for (const Vec3u t : mesh.triangles) {
     const Vec3f p = instance.toWorld.point(mesh.positions[t.x]);
     const Vec3f a = instance.toWorld.point(mesh.positions[t.y]) - p;
     const Vec3f b = instance.toWorld.point(mesh.positions[t.z]) - p;
-    area += 0.5 * static_cast<double>(length(cross(a, b)));
+    const double area = 0.5 * static_cast<double>(length(cross(a, b)));
+    if (!(area > 0)) continue;
+    areas.sum += area;
+    areas.least = std::min(areas.least, area), areas.most = std::max(areas.most, area);
+    ++areas.count;
   }
-  return area;
+  return areas;
 }
 
 }  // namespace
@@ -38,7 +54,7 @@ void Reader::areaLightSource(const Token& token) {
   state_.areaLight = std::move(light);
 }
 
-EmitterHandle Reader::areaEmitter() {
+EmitterHandle Reader::areaEmitter(size_t parts) {
   AreaLight& light = *state_.areaLight;
   if (light.emitter.valid()) return light.emitter;
   const bool isFirst = !light.wasUsed;
@@ -63,6 +79,8 @@ EmitterHandle Reader::areaEmitter() {
     e.radiance = lightColor(in, "L");
   }
   pending.power = static_cast<double>(in.number("power", -1.f));
+  pending.parts = parts;
+  pending.where = light.where;
   pending.twoSided = in.boolean("twosided", false);
   if (isFirst) in.finish("area light", findings_);
   std::swap(state_.colorSpace, light.colorSpace);
@@ -75,18 +93,26 @@ EmitterHandle Reader::areaEmitter() {
 
 void Reader::finishAreaLights() {
   for (const PendingArea& pending : pendingAreas_) {
-    double area = 0;
+    Areas areas;  // a light of a given power has one instance
     const size_t count = scene_.instances.size();
     for (size_t i = 0; i < count; ++i) {
       if (scene_.instances[i].emitter != pending.emitter) continue;
-      area += areaOf(scene_, scene_.instances[i]);
+      if (pending.power > 0) areas = areasOf(scene_, scene_.instances[i]);
       if (pending.twoSided) makeTwoSided(i);
     }
     const double sides = pending.twoSided ? 2 : 1;
-    const double emitted = pending.textureMean * sides * area * static_cast<double>(kPi);
+    const double emitted = pending.textureMean * sides * areas.sum * static_cast<double>(kPi);
     if (!(pending.power > 0) || !(emitted > 0)) continue;
+    const size_t parts = pending.parts > 0 ? pending.parts : areas.count;
+    if (parts > 1 && areas.most > areas.least * (1 + kSameArea))
+      findings_.inform(pending.where,
+                       fmt::format("the light's power is that of each triangle or patch, which "
+                                   "differ in area; all {} have the same radiance here, the power "
+                                   "of all together is that of PBRT",
+                                   parts));
+    const double power = pending.power * static_cast<double>(parts);
     ColorParam& radiance = scene_.emitters[pending.emitter.index].radiance;
-    radiance = product(radiance, Rgb(static_cast<float>(pending.power / emitted)));
+    radiance = product(radiance, Rgb(static_cast<float>(power / emitted)));
   }
 }
 

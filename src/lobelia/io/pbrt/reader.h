@@ -173,7 +173,8 @@ class Reader {
 
   // area_lights.cpp
   void areaLightSource(const Token& token);
-  EmitterHandle areaEmitter();
+  // parts: PBRT's shapes that the mesh consists of, 0: its triangles.
+  EmitterHandle areaEmitter(size_t parts);
   void finishAreaLights();
   void makeTwoSided(size_t instance);
   void applySensor();
@@ -194,6 +195,8 @@ class Reader {
     EmitterHandle emitter;
     double power = 0;        // <= 0: not given
     double textureMean = 1;  // mean luminance of the light's image
+    size_t parts = 0;        // as given to areaEmitter()
+    Location where;
     bool twoSided = false;
   };
 

@@ -69,6 +69,12 @@ float sweep(Parameters& in) {
   return std::min(degrees, kFullTurn);
 }
 
+// Shapes of PBRT's in this one; 0: as many as triangles.
+size_t partsOf(const std::string& type, Parameters& in) {
+  if (type == "bilinearmesh") return std::max<size_t>(in.indices("indices").size() / 4, 1);
+  return type == "sphere" || type == "disk" || type == "cylinder" ? 1 : 0;
+}
+
 }  // namespace
 
 void Reader::shape(const Token& token) {
@@ -114,7 +120,7 @@ void Reader::shape(const Token& token) {
     } else if (isInvisible) {
       warnOnce(token.where, "an invisible area light is not supported; it does not shine");
     } else {
-      instance.emitter = areaEmitter();
+      instance.emitter = areaEmitter(partsOf(type, in));
     }
   }
   (inObject_ ? objects_[openObject_] : scene_.instances).push_back(std::move(instance));
