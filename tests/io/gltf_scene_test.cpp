@@ -139,7 +139,11 @@ TEST_F(GltfScene, SkinsPlaceVerticesByTheirJoints) {
   EXPECT_EQ(p[1], Vec3f(5, 0, 0));
   EXPECT_EQ(p[3], Vec3f(2, 1, 1));
   EXPECT_EQ(s.meshes[0].normals[3], Vec3f(0, 0, 1));
-  expectError(text(7), "meshes[0].primitives[0].attributes.JOINTS_0", "joint 9; the skin has 2");
+  const std::string path = "meshes[0].primitives[0].attributes.JOINTS_0";
+  expectError(text(7), path, "joint 9; the skin has 2");
+  expectError(text(5), path, "its componentType is 5126");
+  b.accessor<uint8_t>(std::vector<uint8_t>(16), "VEC4", 4, R"("normalized":true)");  // 8
+  expectError(text(8), path, "normalized");
 }
 
 TEST_F(GltfScene, GpuInstancingAndFlattenedNodes) {
@@ -153,6 +157,41 @@ TEST_F(GltfScene, GpuInstancingAndFlattenedNodes) {
   ASSERT_EQ(s.instances.size(), 2u);
   EXPECT_EQ(s.instances[1].toWorld.point({1, 0, 0}), Vec3f(4, 7, 0));
   EXPECT_TRUE(finds(s, Severity::info, "nodes[0]: 1 instances are left out"));
+}
+
+TEST_F(GltfScene, GpuInstancingByCustomAttributes) {
+  GltfBuilder b = GltfBuilder::square();
+  b.accessor<float>({4, 5, 6}, "SCALAR", 1);                                 // 4
+  b.accessor<float>({1, 0, 0, 2, 0, 0}, "VEC3", 3);                          // 5
+  b.rawAccessor(R"("componentType":5126,"count":9000000,"type":"SCALAR")");  // 6
+  const auto text = [&](const std::string& attributes) {
+    return b.json(R"("nodes":[{"mesh":0,"translation":[0,7,0],"extensions":)"
+                  R"({"EXT_mesh_gpu_instancing":{"attributes":{)" +
+                  attributes + "}}}}]," + GltfBuilder::squareMesh());
+  };
+  const Scene s = read(text(R"("_ID":4)"));
+  ASSERT_EQ(s.instances.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(originOf(s, i), Vec3f(0, 7, 0));
+  const std::string path = "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.";
+  expectError(text(R"("_ID":4,"TRANSLATION":5)"), path + "_ID", "has 3 elements; another");
+  expectError(text(R"("_ID":6)"), path + "_ID", "places 9000000 instances");
+}
+
+// Turned over by scales, instances of one primitive take the material of their side.
+TEST_F(GltfScene, InstancesOfAPrimitiveShareTheirMaterials) {
+  io::writePng(folder.path("n.png"), {128, 255, 255}, 1, 1, 3);
+  GltfBuilder b = GltfBuilder::square();
+  b.accessor<float>({1, 1, 1, -1, 1, 1, 1, 2, 1, 1, -1, 1}, "VEC3", 3);  // 4
+  const Scene s = read(b.json(
+      R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"SCALE":4}}}}],)" +
+      GltfBuilder::squareMesh(R"("material":0)") +
+      R"(,"materials":[{"normalTexture":{"index":0}}],"textures":[{"source":0}],)"
+      R"("images":[{"uri":"n.png"}])"));
+  ASSERT_EQ(s.instances.size(), 4u);
+  const auto of = [&](size_t i) { return s.instances[i].material.index; };
+  EXPECT_EQ(of(0), of(2));
+  EXPECT_EQ(of(1), of(3));
+  EXPECT_NE(of(0), of(1));
 }
 
 TEST_F(GltfScene, CamerasLookAlongMinusZAndFollowTheirPath) {
@@ -200,6 +239,36 @@ TEST_F(GltfScene, PunctualLights) {
   EXPECT_EQ(s.emitters[1].toWorld.point({}), Vec3f(0, 3, 0));
   EXPECT_NEAR(s.emitters[2].toWorld.vector({0, 0, 1}).z, -1, 1e-6);
   EXPECT_FLOAT_EQ(s.emitters[2].cutoff, 0.2f);
+}
+
+// KHR_lights_punctual's reference: saturate(cosine scale + offset) squared.
+TEST_F(GltfScene, SpotsFallOffAsTheReference) {
+  const auto text = [&](const std::string& spot) {
+    return square_.json(R"("nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}},)"
+                        R"({"extensions":{"KHR_lights_punctual":{"light":0}}}],"extensions":)"
+                        R"({"KHR_lights_punctual":{"lights":[{"type":"spot","range":5,"spot":{)" +
+                        spot + "}}]}}," + GltfBuilder::squareMesh());
+  };
+  const Scene s = read(text(R"("innerConeAngle":0.2,"outerConeAngle":0.6)"));
+  ASSERT_EQ(s.emitters.size(), 2u);
+  EXPECT_TRUE(finds(s, Severity::info, "lights[0].range: is not used"));
+  const Emitter& spot = s.emitters[0];
+  EXPECT_EQ(spot.type, EmitterType::spot);
+  EXPECT_EQ(spot.cutoff, spot.beamWidth);
+  EXPECT_EQ(spot.pattern, s.emitters[1].pattern);
+  for (const double angle : {0.0, 0.1, 0.25, 0.4, 0.5, 0.58}) {
+    TextureContext at;
+    at.uv = {0.5f, 0.5f + 0.5f * static_cast<float>(std::tan(angle) / std::tan(0.6))};
+    const double ramp = (std::cos(angle) - std::cos(0.6)) / (std::cos(0.2) - std::cos(0.6));
+    EXPECT_NEAR(evaluate(s, spot.pattern, at).x, std::pow(std::min(ramp, 1.0), 2), 0.005) << angle;
+  }
+  const Scene wide = read(text(R"("outerConeAngle":1.57)"));
+  EXPECT_EQ(wide.emitters[0].type, EmitterType::goniometric);
+  const Image& rows = wide[wide.emitters[0].image];
+  EXPECT_NEAR(rows.at(0, rows.height / 3, 0), 0.25f, 0.005f);  // 60 degrees: cosine 1/2
+  EXPECT_EQ(rows.at(0, rows.height * 2 / 3, 0), 0);
+  expectError(text(R"("innerConeAngle":0.6,"outerConeAngle":0.6)"),
+              "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle", "larger");
 }
 
 TEST_F(GltfScene, MaterialFactors) {
@@ -255,6 +324,34 @@ TEST_F(GltfScene, GlassGlossinessUnlitAndEmission) {
                                    R"("extensions":{"KHR_materials_unlit":{}})");
   EXPECT_EQ(unlit[unlit.instances[0].emitter].radiance.value, Rgb(0.5f, 0, 0));
   EXPECT_EQ(inner(unlit).diffuse.value, Rgb(0.f));
+}
+
+TEST_F(GltfScene, DoubleSidedEmissionLeavesBothSides) {
+  const std::string shines = R"("emissiveFactor":[1,1,1],"doubleSided":true)";
+  const Scene both = withMaterial(shines);
+  ASSERT_EQ(both.instances.size(), 2u);
+  EXPECT_EQ(both.instances[0].emitter, both.instances[1].emitter);
+  EXPECT_FALSE(both.instances[0].flipNormals);
+  EXPECT_TRUE(both.instances[1].flipNormals);
+  EXPECT_LT(both[both.instances[1].mesh].positions[0].z, 0);
+  EXPECT_EQ(withMaterial(R"("emissiveFactor":[1,1,1])").instances.size(), 1u);
+  EXPECT_EQ(withMaterial(R"("doubleSided":true)").instances.size(), 1u);
+  EXPECT_EQ(withMaterial(R"("doubleSided":true,"extensions":{"KHR_materials_unlit":{}})")
+                .instances.size(),
+            2u);
+  const Scene blend = withMaterial(shines + R"(,"alphaMode":"BLEND")");
+  EXPECT_EQ(blend.instances.size(), 1u);
+  EXPECT_TRUE(finds(blend, Severity::info, "materials[0]: is doubleSided, but half-transparent"));
+
+  // Two nodes with one mesh: two lights, and one mesh for the backs of both.
+  const Scene twice = read(square_.json(R"("nodes":[{"mesh":0},{"mesh":0,"scale":[-1,1,1]}],)" +
+                                        GltfBuilder::squareMesh(R"("material":0)") +
+                                        R"(,"materials":[{)" + shines + "}]"));
+  ASSERT_EQ(twice.instances.size(), 4u);
+  EXPECT_EQ(twice.meshes.size(), 2u);
+  EXPECT_EQ(twice.instances[1].mesh, twice.instances[3].mesh);
+  EXPECT_EQ(twice.instances[2].emitter, twice.instances[3].emitter);
+  EXPECT_NE(twice.instances[0].emitter, twice.instances[2].emitter);
 }
 
 TEST_F(GltfScene, AlphaModes) {
