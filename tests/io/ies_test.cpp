@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "io/temporary_folder.h"
 #include "lobelia/io/ies_reader.h"
 
@@ -140,7 +143,7 @@ TEST(Ies, ImageHoldsTheMeasurements) {
   EXPECT_EQ(image.channels, 1);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const double down = 180.0 * y / (image.height - 1), around = 360 * (x + 0.5) / image.width;
+      const double down = 180.0 * y / (image.height - 1), around = 360.0 * x / image.width;
       EXPECT_NEAR(image.at(x, y, 0), p.at(down, around), 1e-4);
     }
   }
@@ -149,6 +152,31 @@ TEST(Ies, ImageHoldsTheMeasurements) {
   // Rotational symmetry needs one column.
   EXPECT_EQ(io::iesImage(read(file("", "TILT=NONE", counts(2, 1) + "0 90\n0\n9 9\n")), "x").width,
             1);
+}
+
+// Candela of a lamp with one bright plane and, in it, one bright angle.
+TEST(Ies, ImageKeepsNarrowPeaks) {
+  struct Case {
+    std::string planes;
+    int count;
+    double peak;
+  };
+  for (const Case& c : {Case{"0 15 30 45 60 75 90", 7, 45}, Case{"0 22.5 45 67.5 90", 5, 22.5},
+                        Case{"0 10 25 90", 4, 25}, Case{"0 7.25 90 180 359.5", 5, 7.25}}) {
+    std::string candela;
+    std::istringstream planes(c.planes);
+    for (double plane; planes >> plane;) candela += plane == c.peak ? "0 0 1000 0\n" : "0 0 0 0\n";
+    const auto p = read(file("IESNA91\n", "TILT=NONE",
+                             counts(4, c.count) + "0 12 37.5 90\n" + c.planes + "\n" + candela));
+    const Image image = io::iesImage(p, "x");
+    // The brightest texel is the peak, in the direction where the emitter has it.
+    const auto brightest = std::max_element(image.pixels.begin(), image.pixels.end());
+    EXPECT_NEAR(*brightest, 1000, 10) << c.planes;
+    const auto index = static_cast<int>(brightest - image.pixels.begin());
+    EXPECT_NEAR(180. * (index / image.width) / (image.height - 1), 37.5, 0.01) << c.planes;
+    const double around = 360 * (index % image.width + 0.5) / image.width + io::iesTurn(image);
+    EXPECT_NEAR(around, c.peak, 0.01) << c.planes;
+  }
 }
 
 }  // namespace

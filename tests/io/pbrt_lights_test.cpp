@@ -243,6 +243,44 @@ TEST(PbrtLights, GoniometricAndProjection) {
   expectNear(p.toWorld.vector({1, 0, 0}), {-1, 0, 0});
 }
 
+// A lobe comes out where it is in the file, in the middle of the texels weighted by solid angle.
+TEST(PbrtLights, LobesKeepTheirDirections) {
+  constexpr int kSize = 64;
+  for (const float theta : {0.35f, 1.f, 2.8f}) {
+    const Vec3f axis{std::sin(theta) * 0.6f, std::sin(theta) * 0.8f, std::cos(theta)};
+    Image square;
+    square.width = square.height = kSize, square.channels = 1;
+    for (int i = 0; i < kSize * kSize; ++i) {
+      const Vec3f d =
+          io::pbrt::directionFromOctahedral({(static_cast<float>(i % kSize) + .5f) / kSize,
+                                             (static_cast<float>(i / kSize) + .5f) / kSize});
+      square.pixels.push_back(std::exp(60 * (dot(d, axis) - 1)));
+    }
+    const auto middle = [](const Image& image, const auto& direction) {
+      Vec3f sum{};
+      for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {  // where path/spherical_image.h puts them
+          const float angle = kPi * static_cast<float>(y) / static_cast<float>(image.height - 1);
+          const float phi =
+              kTwoPi * (static_cast<float>(x) + .5f) / static_cast<float>(image.width);
+          sum += direction(std::sin(angle), std::cos(angle), phi) *
+                 (image.at(x, y, 0) * std::sin(angle));
+        }
+      return normalize(sum);
+    };
+    const Vec3f beam =  // the file's z is the light's y
+        middle(io::pbrt::goniometricFromOctahedral(square), [](float s, float c, float phi) {
+          return Vec3f(s * std::cos(phi), c, s * std::sin(phi));
+        });
+    EXPECT_LT(std::acos(std::min(dot(beam, axis), 1.f)), 0.006f) << theta;
+    const Vec3f sun =
+        middle(io::pbrt::environmentFromOctahedral(square), [](float s, float c, float phi) {
+          return Vec3f(s * std::sin(phi), c, -s * std::cos(phi));
+        });
+    EXPECT_LT(std::acos(std::min(dot(sun, axis), 1.f)), 0.006f) << theta;
+  }
+}
+
 TEST(PbrtLights, AreaLights) {
   const Scene shared = readPbrtWorld(
       std::string("AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"float scale\" 2\n") + kTriangle +

@@ -291,32 +291,49 @@ IesPhotometry readIes(const std::string& file, const Location& from,
   return p;
 }
 
+namespace {
+
+// Steps of `turn` degrees that all angles are multiples of (to a hundredth of a step), no wider
+// than their least distance or five degrees: the fewest, or steps of 0.1 degrees when there are
+// none.
+int evenSteps(const std::vector<double>& angles, double turn) {
+  constexpr double kWidest = 5, kFinest = 0.1, kOff = 0.01;
+  double least = kWidest;
+  for (size_t i = 1; i < angles.size(); ++i) least = std::min(least, angles[i] - angles[i - 1]);
+  const int most = static_cast<int>(std::lround(turn / kFinest));
+  for (int n = static_cast<int>(std::ceil(turn / std::max(least, kFinest) - kOff)); n < most; ++n) {
+    const auto isMultiple = [&](double angle) {
+      const double steps = angle * n / turn;
+      return std::abs(steps - std::round(steps)) <= kOff;
+    };
+    if (std::all_of(angles.begin(), angles.end(), isMultiple)) return n;
+  }
+  return most;
+}
+
+}  // namespace
+
 Image iesImage(const IesPhotometry& photometry, const std::string& name) {
-  // The smallest distance of measured angles, between half a degree and five.
-  const auto step = [](const std::vector<double>& angles) {
-    double least = 5;
-    for (size_t i = 1; i < angles.size(); ++i) least = std::min(least, angles[i] - angles[i - 1]);
-    return std::max(least, 0.5);
-  };
   Image image;
   image.name = name;
   image.channels = 1;
+  // The angles of types A and B run around other axes: as fine a grid as that of the finer ones.
   const bool isC = photometry.type == 1;
-  const double vertical = step(photometry.vertical);
-  const double horizontal =
-      isC ? step(photometry.horizontal) : std::min(vertical, step(photometry.horizontal));
-  const bool round = isC && photometry.horizontal.size() == 1;
-  image.height = static_cast<int>(std::ceil(180 / (isC ? vertical : horizontal) - 1e-6)) + 1;
-  // Texels are centred between multiples of their width: twice as many hold the measured planes.
-  image.width = round ? 1 : std::max(8, static_cast<int>(std::ceil(720 / horizontal - 1e-6)));
+  const int down = evenSteps(photometry.vertical, 180);
+  const int around = evenSteps(photometry.horizontal, 360);
+  image.height = (isC ? down : std::max(down, around / 2)) + 1;
+  image.width = isC ? around : std::min(2 * std::max(2 * down, around), 3600);
+  if (isC && photometry.horizontal.size() == 1) image.width = 1;
   image.pixels.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       image.pixels.push_back(static_cast<float>(
-          photometry.at(y * 180.0 / (image.height - 1), (x + 0.5) * 360.0 / image.width)));
+          photometry.at(y * 180.0 / (image.height - 1), x * 360.0 / image.width)));
     }
   }
   return image;
 }
+
+double iesTurn(const Image& image) { return image.width > 1 ? -180.0 / image.width : 0; }
 
 }  // namespace lobelia::io

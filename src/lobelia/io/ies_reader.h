@@ -27,8 +27,12 @@ struct IesPhotometry {
 // to `findings`.
 IesPhotometry readIes(const std::string& file, const Location& from,
                       std::vector<Finding>& findings);
-// Candela as the image of a goniometric emitter: straight down is local +z, C0 local +x, C90 local
-// +y. One grey channel; texels are as close as the measured angles, to a limit.
+// Candela as the image of a goniometric emitter: straight down is local +z. One grey channel. Rows
+// and columns lie on the measured angles, where these are multiples of 0.1 degrees or of another
+// step as wide: peaks keep their heights. So the first column's centre is the plane C0, half a
+// column past local +x: the emitter's transform times a turn about +z by iesTurn() degrees brings
+// C0 to local +x, C90 to local +y.
 Image iesImage(const IesPhotometry& photometry, const std::string& name);
+double iesTurn(const Image& image);
 
 }  // namespace lobelia::io

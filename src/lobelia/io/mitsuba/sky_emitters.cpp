@@ -124,6 +124,8 @@ Emitter Reader::goniometric(Object& object) {
   if (!file) throw InputError(object.where(), "the " + object.type() + " has no filename");
   if (object.type() == "ies") {
     e.image = photometry(*file, object.where());
+    const Mat4 turn = rotation({0, 0, 1}, iesTurn(scene_[e.image]));
+    e.toWorld = makeTransform(e.toWorld.to * turn, object.where());
   } else {
     e.image = image(*file, false, std::max(object.number("gamma", 0.f), 0.f), object.where());
   }
