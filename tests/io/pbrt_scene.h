@@ -1,4 +1,4 @@
-// Helpers of the tests of the PBRT reader: scenes given as text.
+// For the tests of the PBRT reader: scenes given as text.
 #pragma once
 
 #include "io/temporary_folder.h"
