@@ -17,6 +17,7 @@ namespace {
 
 constexpr const char* kKind = "checkpoint";
 constexpr uint32_t kFileVersion = 1;
+constexpr const char* kFirstBad = "first_nonfinite_pixel";  // a value among the counters
 constexpr const char* kCounters[] = {
     "path_rays", "shadow_rays",        "nonfinite",         "light_particles",     "lights_dropped",
     "paths_cut", "node_pairs_visited", "node_pairs_shaded", "specular_connections"};
@@ -150,6 +151,7 @@ bool CheckpointFile::due() const { return nanosecondsNow() > due_; }
 
 void CheckpointFile::markCounts() {
   for (const char* name : kCounters) marked_[name] = context_.statistics.count(name);
+  marked_[kFirstBad] = static_cast<uint64_t>(context_.statistics.value(kFirstBad));
 }
 
 // A disk that is full now must not cost the picture, and a slow one not much of its time.
@@ -199,6 +201,10 @@ bool CheckpointFile::load(std::string_view stage, const StateFields& state) {
 void CheckpointFile::restoreCounts() {
   // Counters only grow; modulo 2^64 that is no limit.
   for (const auto& [name, count] : loaded_) {
+    if (name == kFirstBad) {
+      context_.statistics.setValue(name, static_cast<double>(count));
+      continue;
+    }
     context_.statistics.addCount(name, count - context_.statistics.count(name));
   }
 }

@@ -82,7 +82,11 @@ class PathPasses {
 
   // False when stopped before all samples were added.
   bool run() {
-    if (checkpoints_ && checkpoints_->load(kStage, state())) checkpoints_->restoreCounts();
+    if (checkpoints_ && checkpoints_->load(kStage, state())) {
+      checkpoints_->restoreCounts();
+      const double known = context_.statistics.value("first_nonfinite_pixel");
+      if (known > 0) firstBad_ = static_cast<uint32_t>(known - 1);
+    }
     // The first passes are short: a limited render should have every pixel soon.
     for (int first = 0, size = 1; first < settings_.spp && !stopped(first > 0); first += size) {
       if (first > 0) size = std::min(3 * first, kSamplesPerPass);
@@ -93,9 +97,7 @@ class PathPasses {
       }
     }
     save();
-    if (firstBad_ != PathCounts{}.firstBad) {
-      context_.statistics.setValue("first_nonfinite_pixel", 1.0 + firstBad_);
-    }
+    noteFirstBad();
     return complete(settings_.spp);
   }
 
@@ -169,8 +171,13 @@ class PathPasses {
   bool due() const { return checkpoints_ && checkpoints_->due(); }
   void save() {
     if (!checkpoints_) return;
+    noteFirstBad();
     checkpoints_->markCounts();
     checkpoints_->save(kStage, state());
+  }
+  void noteFirstBad() {
+    if (firstBad_ != PathCounts{}.firstBad)
+      context_.statistics.setValue("first_nonfinite_pixel", 1.0 + firstBad_);
   }
   StateFields state() {
     StateFields fields;

@@ -20,10 +20,13 @@ int compactBits(int morton) {  // bits 0, 2, 4 of a 6-bit index
   return (morton & 1) | ((morton >> 1) & 2) | ((morton >> 2) & 4);
 }
 
+constexpr uint32_t kNoPixel = 0xffffffffu;
+
 struct Tile {
   std::vector<uint32_t> pixels;  // indices into the data window
   Receivers receivers;
   EyeCounts counts;
+  uint32_t firstBad = kNoPixel;  // the smallest with a sample that was not finite
 };
 
 std::vector<Tile> allTiles(int width, int y0, int y1) {
@@ -140,8 +143,10 @@ Receivers traceReceivers(const Tracer& tracer, const EmitterSampler& emitters, c
       const int x = film.x0 + static_cast<int>(pixel % width),
                 y = film.y0 + static_cast<int>(pixel / width);
       const uint64_t before = tile.counts.pathRays + tile.counts.shadowRays;
+      const uint64_t good = tile.counts.nonFinite;
       layers.add(pixel, walk.trace(x, y, pixel, &tile.receivers, &tile.counts));
       const uint64_t rays = tile.counts.pathRays + tile.counts.shadowRays - before;
+      if (tile.counts.nonFinite > good) tile.firstBad = std::min(tile.firstBad, pixel);
       layers.addCost(pixel, static_cast<float>(rays) / static_cast<float>(settings.sampleCount));
     }
     std::stable_sort(
@@ -149,16 +154,22 @@ Receivers traceReceivers(const Tracer& tracer, const EmitterSampler& emitters, c
         [](const ReceiverPoint& a, const ReceiverPoint& b) { return a.depth < b.depth; });
   });
   EyeCounts total;
+  uint32_t firstBad = kNoPixel;
   for (const Tile& tile : tiles) {
     total.pathRays += tile.counts.pathRays, total.shadowRays += tile.counts.shadowRays;
     total.specularConnections += tile.counts.specularConnections;
     total.cut += tile.counts.cut, total.nonFinite += tile.counts.nonFinite;
+    firstBad = std::min(firstBad, tile.firstBad);
   }
   context.statistics.addCount("path_rays", total.pathRays);
   context.statistics.addCount("shadow_rays", total.shadowRays);
   context.statistics.addCount("specular_connections", total.specularConnections);
   context.statistics.addCount("paths_cut", total.cut);
   context.statistics.addCount("nonfinite", total.nonFinite);
+  // As renderPath() has it, over all calls.
+  const double known = context.statistics.value("first_nonfinite_pixel");  // 0: none
+  if (firstBad != kNoPixel && (known == 0 || 1.0 + firstBad < known))
+    context.statistics.setValue("first_nonfinite_pixel", 1.0 + firstBad);
   return concatenate(tiles);
 }
 
