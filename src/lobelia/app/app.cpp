@@ -174,6 +174,25 @@ std::string printable(const std::string& message) {
   return text;
 }
 
+// The first word that no command understood, with the nearest option of the command in use.
+std::string unknownArgument(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const std::string& extra : app.remaining(true)) {
+    if (!extra.starts_with("-")) continue;
+    const std::string word = extra.substr(0, extra.find('='));
+    return fmt::format("unknown option {}{}", word, suggestion(word, names));
+  }
+  // Values come back before the option they followed; the command line has the order.
+  for (int i = 1; i < argc; ++i)
+    for (const std::string& extra : app.remaining(true))
+      if (extra == argv[i]) return fmt::format("'{}' is one argument too many", extra);
+  return "arguments that nothing asks for";
+}
+
 ExitCode fail(ExitCode code, const std::string& message) {
   fmt::print(stderr, "error: {}\n", printable(message));
   return code;
@@ -198,6 +217,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& e) {  // --help, --version
     line.app.exit(e);
     code = ExitCode::done;
+  } catch (const CLI::ExtrasError&) {
+    code = fail(ExitCode::usage, fmt::format("{}; `{}` lists what there is",
+                                             unknownArgument(line.app, argc, argv), line.help()));
   } catch (const CLI::Error& e) {
     code =
         fail(ExitCode::usage, fmt::format("{}; `{}` lists what there is", e.what(), line.help()));

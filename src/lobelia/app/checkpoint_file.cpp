@@ -137,13 +137,13 @@ void CheckpointFile::open() {
   const auto refuse = [&](const std::string& what) {
     throw InputError({file_}, fmt::format("{}; use --checkpoint to start afresh", what));
   };
+  if (saved_->sceneHash() != identity_.sceneHash) {
+    refuse("the checkpoint belongs to another scene, or the scene was changed since");
+  }
   const std::vector<std::string> different =
       differences(parse(text(*saved_, "settings")), identity_.settings);
   if (!different.empty()) {
     refuse(fmt::format("the checkpoint was made with {}", fmt::join(different, ", ")));
-  }
-  if (saved_->sceneHash() != identity_.sceneHash) {
-    refuse("the checkpoint belongs to another scene, or the scene was changed since");
   }
 }
 

@@ -227,10 +227,16 @@ void requireOutputs(const RenderOptions& options) {
     requireWritable(file);
   }
   std::vector<std::string> files = options.outputs;
-  for (const std::string& file : {options.stats, options.saveLights, options.checkpoint, options.resume}) {
+  for (const std::string& file :
+       {options.stats, options.saveLights, options.checkpoint, options.resume}) {
     if (file.empty()) continue;
     requireWritable(file);
     files.push_back(file);
+  }
+  for (std::string& file : files) {  // "a.exr" and "./a.exr" are one
+    std::error_code error;
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(file, error);
+    if (!error) file = whole.string();
   }
   std::sort(files.begin(), files.end());
   if (const auto twice = std::adjacent_find(files.begin(), files.end()); twice != files.end()) {

@@ -144,6 +144,9 @@ ExitCode show(const ShowOptions& options) {
   const Film film = io::readFilm(options.image);
   if (!film.layers.contains(options.layer)) {
     const std::vector<std::string> names = layerNames(film, "");
+    if (names.empty())
+      throw UsageError(fmt::format("--layer {}: {} has no layers; `render --aov` makes them",
+                                   options.layer, options.image));
     throw UsageError(fmt::format("--layer {}: {} has no such layer; there are {}{}", options.layer,
                                  options.image, fmt::join(names, ", "),
                                  suggestion(options.layer, names)));

@@ -36,7 +36,11 @@ io::ReadSettings readSettings(const SceneOptions& options) {
 
 // A file goes before a built-in scene of the same name.
 bool isBuiltin(const std::string& name) {
-  if (std::filesystem::exists(name)) return false;
+  std::error_code error;  // of folders that may not be looked into: reading will say so
+  const std::filesystem::file_status status = std::filesystem::status(name, error);
+  if (std::filesystem::is_directory(status))
+    throw InputError({name}, "is a folder; name the scene file in it");
+  if (std::filesystem::exists(status) || error == std::errc::permission_denied) return false;
   const std::vector<std::string> names = builtin::builtinSceneNames();
   if (std::find(names.begin(), names.end(), name) != names.end()) return true;
   if (std::filesystem::path(name).has_extension()) return false;
@@ -70,11 +74,14 @@ Scene loadScene(const SceneOptions& options, Context& context) {
   Scene scene;
   if (isBuiltin(options.scene)) {
     if (!settings.definitions.empty()) throw UsageError("-D: built-in scenes have no definitions");
+    if (!settings.variant.empty())
+      throw UsageError("--variant: built-in scenes have no material variants");
     scene = builtin::builtinScene(options.scene, options.detail, options.meshes);
     io::applyEnvironment(scene, settings);
   } else {
     if (!options.meshes.empty())
       throw UsageError("--meshes: only built-in scenes have stand-ins for real meshes");
+    if (options.detail != 1) throw UsageError("--detail: only built-in scenes have it");
     scene = io::readScene(options.scene, settings, context);
   }
   if (context.cancelled()) throw Cancelled{};  // and no judgement of half a scene

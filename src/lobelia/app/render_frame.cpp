@@ -86,7 +86,8 @@ void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& cont
     if (options.frames > 1 && !run.lights) run.lights = report.lights;
   }
   composePicture(film, options);
-  context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);
+  const int64_t end = nanosecondsNow();
+  context.statistics.addSeconds("total", static_cast<double>(end - start) * 1e-9);
 
   if (const uint64_t bad = countNonFinite(film) + context.statistics.count("nonfinite"); bad > 0) {
     context.warning(fmt::format("{} non-finite values{}", bad, replayHint(film, frame, context)));
@@ -96,7 +97,7 @@ void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& cont
   writeOutputs(film, options, run.curve, context);
   if (!options.stats.empty()) writeStatistics(options.stats, options, scene, film, report, context);
   context.info(fmt::format("{:.2f} s rendering, {:.2f} s in all",
-                           static_cast<double>(nanosecondsNow() - renderStart) * 1e-9,
+                           static_cast<double>(end - renderStart) * 1e-9,
                            context.statistics.seconds("total")));
   if (run.display) run.display->finish(film);
 }

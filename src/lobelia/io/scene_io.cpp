@@ -15,8 +15,10 @@ Scene readScene(const std::string& file, const ReadSettings& settings, Context& 
   std::string extension = std::filesystem::path(file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".xml") return readMitsuba(file, settings, context);
   if (extension == ".gltf" || extension == ".glb") return readGltf(file, settings, context);
+  if (!settings.variant.empty())
+    throw UsageError("--variant " + settings.variant + ": only glTF files have material variants");
+  if (extension == ".xml") return readMitsuba(file, settings, context);
   if (extension == ".obj" || extension == ".ply") return readBareMesh(file, settings, context);
   const bool isPackedPbrt = extension == ".gz" && file.find(".pbrt.") != std::string::npos;
   if (extension == ".pbrt" || isPackedPbrt) return readPbrt(file, settings, context);
