@@ -100,6 +100,32 @@ TEST(LightPass, FluxOfAllLights) {
   }
 }
 
+// Particles take of a light's transform what everything else takes: the turn and the flip.
+TEST(LightPass, LightsOutOfShapeShineAsRigidOnes) {
+  const auto lightsOf = [](Vec3d scale) {
+    Scene scene = pointScene();
+    Emitter& spot = scene.emitters.back();
+    spot.type = EmitterType::spot;
+    spot.cutoff = 1;
+    spot.toWorld = Transform(spot.toWorld.to * rotation({1, 2, 3}, 30) * scaling(scale));
+    LightSource source(scene);
+    LightSettings settings;
+    settings.maxDepth = 3;
+    settings.directAsLights = true;
+    return source.run(settings);
+  };
+  const VirtualLights rigid = lightsOf({1, -1, 1}), bent = lightsOf({2, -1, 5});
+  ASSERT_EQ(bent.omni.size(), 1u);
+  EXPECT_EQ(bent.omni[0].intensity, rigid.omni[0].intensity);
+  ASSERT_EQ(bent.diffuse.size(), rigid.diffuse.size());
+  ASSERT_GT(rigid.diffuse.size(), 1000u);
+  for (size_t i = 0; i < rigid.diffuse.size(); ++i) {
+    EXPECT_NEAR(length(bent.diffuse[i].p - rigid.diffuse[i].p), 0, 1e-5f);
+    EXPECT_NEAR(length(bent.diffuse[i].intensity - rigid.diffuse[i].intensity), 0,
+                1e-4f * rigid.diffuse[i].intensity.x);
+  }
+}
+
 // The sum of lights estimates the same thing however many are asked for, also when the pilot is a
 // large part of the work.
 TEST(LightPass, EnergyDoesNotDependOnTheCount) {

@@ -76,6 +76,35 @@ TEST(EmissionPattern, GoniometricImageLiesAsDocumented) {
   EXPECT_GE(towards(scene, {-1, 0, 0}).x, 40);
 }
 
+// Of a transform that is not rigid, the view axis, the turn about it and the flip are left.
+TEST(EmissionPattern, OnlyTheRigidPartOfTheTransformCounts) {
+  Scene scene;
+  Emitter projector;
+  projector.type = EmitterType::projector;
+  projector.fov = 1.5f;
+  scene.emitters = {projector};
+  const auto local = [&](const Mat4& toWorld, Vec3f world) {
+    scene.emitters[0].toWorld = Transform(toWorld);
+    const EmissionPattern pattern(scene, scene.emitters[0]);
+    EXPECT_NEAR(length(pattern.toWorld(pattern.toLocal(world)) - normalize(world)), 0, 1e-6f);
+    return pattern.toLocal(world);
+  };
+  const auto expectNear = [](Vec3f a, Vec3f b) { EXPECT_NEAR(length(a - b), 0, 1e-6f); };
+  const Vec3f d{0.3f, -0.4f, 0.5f};
+  const Mat4 turn = rotation({1, 2, 3}, 50);
+  const Vec3f turned = inverse(turn)->vector(d);
+  expectNear(local(turn, d), turned);
+  expectNear(local(turn * scaling({4, 4, 4}), d), turned);
+  expectNear(local(turn * scaling({1, 2, 3e20}), d), turned);
+  expectNear(local(turn * scaling({-1, 2, 3}), d), turned * Vec3f(-1, 1, 1));
+  expectNear(local(turn * scaling({5, -2, 3}), d), turned * Vec3f(1, -1, 1));
+  expectNear(local(turn * scaling({1, 2, -3}), d), turned * Vec3f(1, 1, -1));
+  const Mat4 sheared{{{{1, 7, 0, 0}, {0, 2, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}};
+  expectNear(local(turn * sheared, d), turned);
+  const Mat4 leaning{{{{1, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}};
+  expectNear(local(leaning, {1, 0, 1}), {0, 0, std::sqrt(2.f)});
+}
+
 TEST(EmissionPattern, ScaleOfTheTransformDoesNotMatter) {
   Scene scene;
   Emitter spot;

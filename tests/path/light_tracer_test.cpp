@@ -112,6 +112,28 @@ TEST(LightTracing, EqualsThePathTracerForEveryCamera) {
   }
 }
 
+// A transform that scales unevenly, shears and mirrors means the same to all: it turns and mirrors.
+TEST(LightTracing, EqualsThePathTracerForLightsOutOfShape) {
+  for (const Lighting lighting : {Lighting::spot, Lighting::projector, Lighting::goniometric}) {
+    Scene scene = test::stageScene();
+    addLighting(scene, lighting);
+    Transform& toWorld = scene.emitters.back().toWorld;
+    const Mat4 bent{{{{-1, 0.4, 0, 0}, {0, 2, 0, 0}, {0, 0, 3, 0}, {0, 0, 0, 1}}}};
+    const Mat4 straight = toWorld.to * scaling({-1, 1, 1});
+    toWorld = Transform(toWorld.to * bent);
+    Renderable r(scene);
+    PathSettings settings;
+    settings.maxDepth = 2;
+    SCOPED_TRACE(nameOf(lighting));
+    expectSame(r, settings, 100, 300);
+    const Vec3d mean = test::meanOf(r.path(settings));
+    scene.emitters.back().toWorld = Transform(straight);
+    Renderable rigid(scene);
+    const Vec3d expected = test::meanOf(rigid.path(settings));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], expected[c], 1e-3 * expected[c]);
+  }
+}
+
 TEST(LightTracing, FindsCausticsBehindGlass) {
   Scene scene = test::boxScene();
   test::addPane(scene);

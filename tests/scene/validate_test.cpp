@@ -34,6 +34,40 @@ TEST(Validate, SoundSceneHasNoFindings) {
   EXPECT_TRUE(findings.empty()) << findings[0].message;
 }
 
+// The warning is for what is ignored, on lights that have directions.
+TEST(Validate, LightsOutOfShape) {
+  for (const EmitterType type :
+       {EmitterType::spot, EmitterType::projector, EmitterType::goniometric, EmitterType::point}) {
+    Scene s = soundScene();
+    s.images.resize(1);
+    s.images[0].width = s.images[0].height = 1;
+    s.images[0].pixels = {1, 1, 1};
+    Emitter light;
+    light.type = type;
+    light.name = "lamp";
+    light.image = {0};
+    s.emitters.push_back(light);
+    const Mat4 turn = translation({1, 2, 3}) * rotation({1, 2, 3}, 50);
+    for (const Mat4& sound : {turn, turn * scaling({4, 4, 4}), turn * scaling({-3e-9, 3e-9, 3e-9}),
+                              scaling({3, 3, -3}) * turn, scaling({1, 1.00001, 1})}) {
+      s.emitters.back().toWorld = Transform(sound);
+      EXPECT_TRUE(validate(s).empty());
+    }
+    Mat4 sheared = turn;
+    sheared.m[0][1] += 0.01;
+    for (const Mat4& bent : {turn * scaling({1, 1, 3}), turn * scaling({1, -2, 1}), sheared}) {
+      s.emitters.back().toWorld = Transform(bent);
+      const auto findings = validate(s);
+      ASSERT_EQ(findings.size(), type == EmitterType::point ? 0u : 1u);
+      for (const Finding& f : findings) {
+        EXPECT_EQ(f.severity, Severity::warning);
+        EXPECT_NE(f.message.find("emitter 'lamp'"), std::string::npos) << f.message;
+        EXPECT_NE(f.message.find("ignored"), std::string::npos) << f.message;
+      }
+    }
+  }
+}
+
 struct Damage {
   const char* name;
   std::function<void(Scene&)> apply;

@@ -109,14 +109,15 @@ class TileGather {
     PairMasks pairs;
     for (size_t first = range.begin; first < range.end; first += kBlockLights) {
       if (context_.cancelled()) return false;
-      prepare(lights_, lightClass, first, std::min(kBlockLights, range.end - first), &block);
+      prepare(lights_, tracer_.scene(), lightClass, first,
+              std::min(kBlockLights, range.end - first), &block);
       allowPairs(tile, block, lights_, settings_, &pairs);
       if (parts != nullptr) parts->watchRays(&pairs);
       const int64_t start = nanosecondsNow();
       tally->rays += keepVisible(tile, block, tracer_, &pairs);
       const int64_t traced = nanosecondsNow();
-      shade(tile, block, tracer_.scene(), settings_.clamp, pairs, sums);
-      if (parts != nullptr) parts->add(block, tracer_.scene(), settings_.clamp, pairs);
+      shade(tile, block, settings_.clamp, pairs, sums);
+      if (parts != nullptr) parts->add(block, settings_.clamp, pairs);
       tally->visibilityNs += traced - start;
       tally->shadeNs += nanosecondsNow() - traced;
     }

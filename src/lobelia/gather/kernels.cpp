@@ -31,17 +31,17 @@ size_t keepVisible(const g::Tile& tile, const g::LightBlock& block, const Tracer
   return keepVisibleOf<g::LightClass::glossy>(tile, block, tracer, pairs);
 }
 
-void shade(const g::Tile& tile, const g::LightBlock& block, const Scene& scene, float clamp,
-           const g::PairMasks& pairs, g::TileSums* sums) {
+void shade(const g::Tile& tile, const g::LightBlock& block, float clamp, const g::PairMasks& pairs,
+           g::TileSums* sums) {
   switch (block.lightClass) {
     case g::LightClass::omni:
-      return shadeOf<g::LightClass::omni>(tile, block, scene, clamp, pairs, sums);
+      return shadeOf<g::LightClass::omni>(tile, block, clamp, pairs, sums);
     case g::LightClass::directional:
-      return shadeOf<g::LightClass::directional>(tile, block, scene, clamp, pairs, sums);
+      return shadeOf<g::LightClass::directional>(tile, block, clamp, pairs, sums);
     case g::LightClass::diffuse:
-      return shadeOf<g::LightClass::diffuse>(tile, block, scene, clamp, pairs, sums);
+      return shadeOf<g::LightClass::diffuse>(tile, block, clamp, pairs, sums);
     case g::LightClass::glossy:
-      return shadeOf<g::LightClass::glossy>(tile, block, scene, clamp, pairs, sums);
+      return shadeOf<g::LightClass::glossy>(tile, block, clamp, pairs, sums);
   }
 }
 
@@ -60,9 +60,9 @@ size_t keepVisible(const Tile& tile, const LightBlock& block, const Tracer& trac
   return HWY_DYNAMIC_DISPATCH(lobelia::keepVisible)(tile, block, tracer, pairs);
 }
 
-void shade(const Tile& tile, const LightBlock& block, const Scene& scene, float clamp,
-           const PairMasks& pairs, TileSums* sums) {
-  HWY_DYNAMIC_DISPATCH(lobelia::shade)(tile, block, scene, clamp, pairs, sums);
+void shade(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
+           TileSums* sums) {
+  HWY_DYNAMIC_DISPATCH(lobelia::shade)(tile, block, clamp, pairs, sums);
 }
 
 }  // namespace lobelia::gather

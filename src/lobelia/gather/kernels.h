@@ -37,7 +37,7 @@ struct TileSums {
 
 // Adds the light of the pairs to the sums: in the order of the lights, in float within the block.
 // A pair whose value is not finite adds nothing and is counted.
-void shade(const Tile& tile, const LightBlock& block, const Scene& scene, float clamp,
-           const PairMasks& pairs, TileSums* sums);
+void shade(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
+           TileSums* sums);
 
 }  // namespace lobelia::gather

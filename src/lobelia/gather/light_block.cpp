@@ -23,7 +23,6 @@ PreparedLight prepared(const OmniLight& light) {
   PreparedLight r;
   r.p = r.end = light.p;
   r.intensity = light.intensity;
-  r.emitter = light.emitter;
   return r;
 }
 PreparedLight prepared(const DirectionalLight& light) {
@@ -58,6 +57,15 @@ template <class Light>
 void prepareAll(const std::vector<Light>& lights, LightBlock* block) {
   for (int i = 0; i < block->count; ++i) {
     block->lights[i] = prepared(lights[block->first + static_cast<size_t>(i)]);
+  }
+}
+
+void preparePatterns(const std::vector<OmniLight>& lights, const Scene& scene, LightBlock* block) {
+  for (int i = 0; i < block->count; ++i) {
+    const uint32_t emitter = lights[block->first + static_cast<size_t>(i)].emitter;
+    if (emitter == 0xffffffffu) continue;
+    block->lights[i].pattern = static_cast<uint32_t>(block->patterns.size());
+    block->patterns.emplace_back(scene, scene.emitters[emitter]);
   }
 }
 
@@ -129,14 +137,16 @@ size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass) {
   return first(lights.glossyDepthEnds);
 }
 
-void prepare(const VirtualLights& lights, LightClass lightClass, size_t first, size_t count,
-             LightBlock* block) {
+void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightClass, size_t first,
+             size_t count, LightBlock* block) {
+  block->patterns.clear();
   block->lightClass = lightClass;
   block->first = first;
   block->count = static_cast<int>(std::min(count, kBlockLights));
   switch (lightClass) {
     case LightClass::omni:
-      return prepareAll(lights.omni, block);
+      prepareAll(lights.omni, block);
+      return preparePatterns(lights.omni, scene, block);
     case LightClass::directional:
       return prepareAll(lights.directional, block);
     case LightClass::diffuse:

@@ -1,10 +1,10 @@
 // A short run of virtual lights of one class, unpacked for the kernels.
 #pragma once
 
-#include <span>
+#include <vector>
 
 #include "lobelia/lights/virtual_lights.h"
-#include "lobelia/scene/scene.h"
+#include "lobelia/path/emission_pattern.h"
 
 namespace lobelia::gather {
 
@@ -23,7 +23,8 @@ struct PreparedLight {
   // cosine to the axis.
   float cutoff = 0;
   Rgb intensity;
-  uint32_t emitter = 0xffffffffu;
+  static constexpr uint32_t kNoPattern = 0xffffffffu;
+  uint32_t pattern = kNoPattern;  // omni: index into LightBlock::patterns
 };
 
 inline constexpr size_t kBlockLights = 32;
@@ -32,6 +33,7 @@ struct LightBlock {
   size_t first = 0;  // index of lights[0] in its class
   int count = 0;
   PreparedLight lights[kBlockLights];
+  std::vector<EmissionPattern> patterns;  // of the lights that have one, in their order
 };
 
 // Light group of light `index` of a class.
@@ -42,7 +44,8 @@ size_t lightCount(const VirtualLights& lights, LightClass lightClass);
 size_t lightsUpToDepth(const VirtualLights& lights, LightClass lightClass, int depth);
 // How many of the lights of a class are on emitters themselves (depth 0); they come first.
 size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass);
-void prepare(const VirtualLights& lights, LightClass lightClass, size_t first, size_t count,
-             LightBlock* block);
+// The block's patterns keep references to the scene.
+void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightClass, size_t first,
+             size_t count, LightBlock* block);
 
 }  // namespace lobelia::gather

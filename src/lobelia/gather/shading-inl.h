@@ -12,7 +12,6 @@
 #include "lobelia/bsdf/kernels-inl.h"
 #include "lobelia/gather/facing-inl.h"
 #include "lobelia/gather/kernels.h"
-#include "lobelia/path/emission_pattern.h"
 
 LOBELIA_CORE_BEGIN
 
@@ -156,8 +155,7 @@ void addLobes(const g::Tile& tile, const g::PointStrip& strip, size_t lane, Pair
 // Multiplies by the directional pattern of a spot, projector or goniometric emitter: a few lights,
 // done point by point.
 inline void applyPattern(const g::PointStrip& strip, size_t lane, const g::PreparedLight& light,
-                         const Scene& scene, size_t i, PairScratch* pairs) {
-  const EmissionPattern pattern(scene, scene.emitters[light.emitter]);
+                         const EmissionPattern& pattern, size_t i, PairScratch* pairs) {
   for (size_t k = 0; k < kLanes; ++k) {
     const Vec3f p = strip.p.get(static_cast<int>(lane + k));
     const Rgb value = pattern.at(pattern.toLocal(p - light.p));
@@ -173,8 +171,8 @@ struct LaneSums {
 };
 
 template <g::LightClass kClass>
-LaneSums sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block,
-               const Scene& scene, float clamp, PairScratch* pairs) {
+LaneSums sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, float clamp,
+               PairScratch* pairs) {
   constexpr bool kClamped = kClass != g::LightClass::directional;
   LaneSums sums{{Vf(0.f), Vf(0.f), Vf(0.f)}, 0, 0};
   for (size_t i = 0; i < pairs->count; ++i) {
@@ -186,8 +184,8 @@ LaneSums sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& blo
       const Vf largest = factor * max(r, max(gg, b));
       factor = select(largest > Vf(clamp), factor * (Vf(clamp) / largest), factor);
     }
-    if (kClass == g::LightClass::omni && light.emitter != 0xffffffffu) {
-      applyPattern(strip, lane, light, scene, i, pairs);
+    if (kClass == g::LightClass::omni && light.pattern != g::PreparedLight::kNoPattern) {
+      applyPattern(strip, lane, light, block.patterns[light.pattern], i, pairs);
     }
     const V3<Vf> value{Vf::load(pairs->r[i].v) * factor * Vf(light.intensity.x),
                        Vf::load(pairs->g[i].v) * factor * Vf(light.intensity.y),
@@ -206,7 +204,7 @@ LaneSums sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& blo
 }
 
 template <g::LightClass kClass>
-void shadeOf(const g::Tile& tile, const g::LightBlock& block, const Scene& scene, float clamp,
+void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
              const g::PairMasks& pairMasks, g::TileSums* sums) {
   PairScratch pairs;
   for (size_t s = 0; s < tile.strips.size(); ++s) {
@@ -224,7 +222,7 @@ void shadeOf(const g::Tile& tile, const g::LightBlock& block, const Scene& scene
       if (pairs.count == 0) continue;
       directions<kClass>(strip, lane, block, &pairs);
       addLobes(tile, strip, lane, &pairs);
-      const LaneSums lanes = sumUp<kClass>(strip, lane, block, scene, clamp, &pairs);
+      const LaneSums lanes = sumUp<kClass>(strip, lane, block, clamp, &pairs);
       sums->pairs += lanes.pairs;
       sums->nonfinite += lanes.nonfinite;
       alignas(64) float x[kLanes], y[kLanes], z[kLanes];

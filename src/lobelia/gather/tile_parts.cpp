@@ -81,18 +81,16 @@ void TileParts::watchRays(PairMasks* pairs) {
   pairs->traced = &traced_;
 }
 
-void TileParts::add(const LightBlock& block, const Scene& scene, float clamp,
-                    const PairMasks& visible) {
+void TileParts::add(const LightBlock& block, float clamp, const PairMasks& visible) {
   for (size_t i = 0; parts_->countRays && i < traced_.size(); ++i) {
     uint32_t* out = &rays_[i % visible.strips * kStrip];
     for (uint32_t bits = traced_[i]; bits != 0; bits &= bits - 1) ++out[std::countr_zero(bits)];
   }
-  if (!groups_.empty()) addGroups(block, scene, clamp, visible);
-  if (anyMixed_) addDiffuseLobes(block, scene, clamp, visible);
+  if (!groups_.empty()) addGroups(block, clamp, visible);
+  if (anyMixed_) addDiffuseLobes(block, clamp, visible);
 }
 
-void TileParts::addGroups(const LightBlock& block, const Scene& scene, float clamp,
-                          const PairMasks& visible) {
+void TileParts::addGroups(const LightBlock& block, float clamp, const PairMasks& visible) {
   const size_t count = static_cast<size_t>(block.count);
   uint16_t group[kBlockLights];
   for (size_t l = 0; l < count; ++l) group[l] = groupOf(lights_, block.lightClass, block.first + l);
@@ -106,16 +104,15 @@ void TileParts::addGroups(const LightBlock& block, const Scene& scene, float cla
         std::fill_n(pairs.bits.begin() + static_cast<ptrdiff_t>(l * pairs.strips), pairs.strips,
                     uint16_t{0});
     if (groups_[g].strips.empty()) groups_[g] = emptySums(tile_);
-    shade(tile_, block, scene, clamp, pairs, &groups_[g]);
+    shade(tile_, block, clamp, pairs, &groups_[g]);
   }
 }
 
-void TileParts::addDiffuseLobes(const LightBlock& block, const Scene& scene, float clamp,
-                                const PairMasks& visible) {
+void TileParts::addDiffuseLobes(const LightBlock& block, float clamp, const PairMasks& visible) {
   PairMasks pairs = visible;
   for (size_t i = 0; i < static_cast<size_t>(block.count) * pairs.strips; ++i)
     if (lobes_[i % pairs.strips] != Lobes::mixed) pairs.bits[i] = 0;
-  shade(diffuse_, block, scene, clamp, pairs, &diffuseSums_);
+  shade(diffuse_, block, clamp, pairs, &diffuseSums_);
 }
 
 void TileParts::write(const TileSums& sums, size_t layer, std::vector<Rgb>* out) const {

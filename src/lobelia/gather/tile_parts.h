@@ -22,16 +22,14 @@ class TileParts {
   void endClass(LightClass lightClass, const TileSums& sums);
   // Before keepVisible(): rays are to be counted.
   void watchRays(PairMasks* pairs);
-  void add(const LightBlock& block, const Scene& scene, float clamp, const PairMasks& visible);
+  void add(const LightBlock& block, float clamp, const PairMasks& visible);
   // To the points, when the tile is complete.
   void write() const;
 
  private:
   enum class Lobes : uint8_t { diffuse, glossy, mixed };
-  void addGroups(const LightBlock& block, const Scene& scene, float clamp,
-                 const PairMasks& visible);
-  void addDiffuseLobes(const LightBlock& block, const Scene& scene, float clamp,
-                       const PairMasks& visible);
+  void addGroups(const LightBlock& block, float clamp, const PairMasks& visible);
+  void addDiffuseLobes(const LightBlock& block, float clamp, const PairMasks& visible);
   void write(const TileSums& sums, size_t layer, std::vector<Rgb>* out) const;
 
   const Receivers& receivers_;

@@ -1,6 +1,7 @@
 #include "lobelia/path/emission_pattern.h"
 
 #include "lobelia/path/spherical_image.h"
+#include "lobelia/scene/emitter_frame.h"
 
 namespace lobelia {
 namespace {
@@ -14,10 +15,7 @@ const Image* pictureOf(const Scene& scene, TextureHandle texture) {
 }  // namespace
 
 EmissionPattern::EmissionPattern(const Scene& scene, const Emitter& emitter)
-    : scene_(scene),
-      emitter_(emitter),
-      toLocal_(emitter.toWorld.from),
-      toWorld_(emitter.toWorld.to) {
+    : scene_(scene), emitter_(emitter), frame_(emitterFrame(emitter)) {
   switch (emitter.type) {
     case EmitterType::spot:
       cosCutoff_ = std::cos(emitter.cutoff);

@@ -3,10 +3,12 @@
 //
 // Spots (linear in the angle, picture over the tangent plane of the cutoff) and projectors
 // (irradiance pi times the picture on the plane at distance one, square pixels) are Mitsuba 3's.
-// Goniometric emitters: an image over directions, spherical_image.h says how it lies.
+// Goniometric emitters: an image over directions, spherical_image.h says how it lies. The pattern
+// stands in the world by emitterFrame(): rigidly, so that densities per solid angle are the same in
+// local and in world space.
 #pragma once
 
-#include "lobelia/path/direction_rows.h"
+#include "lobelia/base/frame.h"
 #include "lobelia/scene/scene.h"
 
 namespace lobelia {
@@ -21,8 +23,8 @@ class EmissionPattern {
   // its scale for a projector, whose picture is wholly in at().
   Rgb base() const { return base_; }
   Rgb at(Vec3f local) const;  // local direction away from the emitter, of any length
-  Vec3f toLocal(Vec3f world) const { return toLocal_ * world; }
-  Vec3f toWorld(Vec3f local) const { return normalize(toWorld_ * local); }
+  Vec3f toLocal(Vec3f world) const { return frame_.toLocal(world); }
+  Vec3f toWorld(Vec3f local) const { return normalize(frame_.toWorld(local)); }
 
   // The cone that holds all light, and the one in which a spot's is undiminished.
   float cosCutoff() const { return cosCutoff_; }
@@ -40,7 +42,7 @@ class EmissionPattern {
   const Scene& scene_;
   const Emitter& emitter_;
   Rgb base_{};
-  DirectionRows toLocal_, toWorld_;
+  Frame frame_;
   const Image* picture_ = nullptr;
   float cosCutoff_ = -1, cosBeam_ = -1, tanX_ = 1, tanY_ = 1;
 };

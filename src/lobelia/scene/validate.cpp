@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "lobelia/scene/emitter_frame.h"
+
 namespace lobelia {
 namespace validation {
 
@@ -24,6 +26,13 @@ void checkTransform(const Transform& t, const std::string& who, Findings& findin
   } else if (!isUsable(t)) {
     findings.error(who + ": its transform is singular; it must not flatten space (scale of 0?)");
   }
+}
+
+void checkRigid(const Emitter& e, const std::string& who, Findings& findings) {
+  if (!isUsable(e.toWorld) || keepsAngles(e)) return;
+  findings.warning(who +
+                   ": its transform scales unevenly or shears; that is ignored, a light at a point "
+                   "is only moved, turned and mirrored");
 }
 
 bool isNegative(Rgb c) { return minComponent(c) < 0; }
@@ -91,6 +100,7 @@ void checkEmitters(const Scene& scene, Findings& findings) {
       case EmitterType::environment:
       case EmitterType::goniometric:
         if (e.image.index >= scene.images.size()) findings.error(who + ": has no image");
+        if (e.type == EmitterType::goniometric) checkRigid(e, who, findings);
         break;
       case EmitterType::sun:
         if (!(e.angularRadius >= 0 && e.angularRadius <= kPi / 2)) {
@@ -106,11 +116,13 @@ void checkEmitters(const Scene& scene, Findings& findings) {
         if (!(e.cutoff > 0) || !(e.beamWidth >= 0) || e.beamWidth > e.cutoff) {
           findings.error(who + ": needs 0 <= beam width <= cutoff angle, cutoff above 0");
         }
+        checkRigid(e, who, findings);
         break;
       case EmitterType::projector:
         if (!(e.fov > 0 && e.fov < kPi)) {
           findings.error(who + ": its field of view must lie between 0 and 180 degrees");
         }
+        checkRigid(e, who, findings);
         break;
       case EmitterType::point:
       case EmitterType::constant:
