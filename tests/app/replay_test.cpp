@@ -15,10 +15,11 @@ using test::ProgramResult;
 using test::runProgram;
 using test::TemporaryFolder;
 
-void expectSameValue(const std::string& options, const std::string& program = "cornell") {
+void expectSameValue(const std::string& options,
+                     const std::string& program = "cornell --detail 0.1") {
   const TemporaryFolder folder;
   const std::string command =
-      "render " + program + " --detail 0.1 --size 40x30 --crop 4,2,36,30 --quiet " + options;
+      "render " + program + " --size 40x30 --crop 4,2,36,30 --quiet " + options;
   ASSERT_EQ(runProgram(command + " -o " + (folder / "a%d.exr")).exitCode, 0);
   const bool frame = options.find("--frame 2") != std::string::npos;
   const Film film = io::readFilm(folder / (frame ? "a2.exr" : "a%d.exr"));

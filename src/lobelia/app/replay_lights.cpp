@@ -136,8 +136,10 @@ class LightReplay {
       });
     };
     using L = VirtualLights;
-    for (const auto& [name, part] :
+    for (const auto& named :
          {std::pair{"of an emitter", &parts_.direct}, std::pair{"of a bounce", &parts_.indirect}}) {
+      const char* const name = named.first;
+      const VirtualLights* const part = named.second;
       const auto called = [&](const char* kind) { return fmt::format("{} light {}", kind, name); };
       addClass(called("omni").c_str(), part->omni, nullptr, &L::omni, &L::diffuseDepthEnds);
       addClass(called("directional").c_str(), part->directional, nullptr, &L::directional,
