@@ -1,9 +1,8 @@
 // How a point-like emitter (spot, projector, goniometric) stands in the world.
 //
 // Its pattern is an intensity per solid angle, which a transform that scales space unevenly or
-// shears it would change by a Jacobian, and would make of a round cone an elliptic one. As in
-// Mitsuba 3, which refuses such a transform, and pbrt, which warns and assumes that there is none,
-// only the rigid part counts: every method asks here, and validate() says what was dropped.
+// shears it would change by a Jacobian, and would make of a round cone an elliptic one. Only the
+// rigid part counts: every method asks here, and validate() says what was dropped.
 #pragma once
 
 #include "lobelia/base/frame.h"
