@@ -142,12 +142,31 @@ std::string formatOf(std::span<const std::byte> bytes) {
   return "";
 }
 
+// OpenImageIO 2.4 does not compare the indices of a TGA file with its palette: only palettes that
+// hold every index of 8 bits are let through.
+void requireWholePalette(const std::string& file, std::span<const std::byte> start) {
+  constexpr size_t kHeader = 18;
+  if (start.size() < kHeader)
+    throw InputError({file, 0, 0}, "cannot read the image: its header ends too early");
+  const auto byte = [&](size_t i) { return std::to_integer<int>(start[i]); };
+  const int imageType = byte(2), first = byte(3) + 256 * byte(4), length = byte(5) + 256 * byte(6),
+            indexBits = byte(16);
+  const bool mapped = imageType == 1 || imageType == 9;
+  if (mapped && (byte(1) != 1 || first != 0 || length < 256 || indexBits != 8))
+    throw InputError({file, 0, 0},
+                     "cannot read the image: a TGA palette must have all 256 colours of 8-bit "
+                     "indices; save it as true colour");
+}
+
 // TGA begins with no magic: its name tells it.
 std::string formatOf(const std::string& file, std::span<const std::byte> start) {
   const std::string format = formatOf(start);
   std::string extension = std::filesystem::path(file).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (format.empty() && extension == ".tga") return "targa";
+  if (format.empty() && extension == ".tga") {
+    requireWholePalette(file, start);
+    return "targa";
+  }
   if (format.empty())
     throw InputError({file, 0, 0},
                      fmt::format("cannot read the image: unknown format; {}", kFormats));
