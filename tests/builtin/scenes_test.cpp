@@ -9,6 +9,7 @@
 #include "lobelia/builtin/builtin_scenes.h"
 #include "lobelia/builtin/shapes.h"
 #include "lobelia/io/scene_io.h"
+#include "support/mesh_volume.h"
 
 namespace lobelia {
 namespace {
@@ -25,15 +26,7 @@ double area(const Mesh& mesh) {
   return sum;
 }
 
-// Volume by the divergence theorem; right only for closed meshes that are oriented outwards.
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const Vec3u& t : mesh.triangles)
-    sum += static_cast<double>(
-               dot(mesh.positions[t.x], cross(mesh.positions[t.y], mesh.positions[t.z]))) /
-           6;
-  return sum;
-}
+using test::volume;
 
 void expectSound(const Mesh& mesh, float leastCosine) {
   ASSERT_EQ(mesh.normals.size(), mesh.positions.size());

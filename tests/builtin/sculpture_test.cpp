@@ -7,18 +7,12 @@
 #include "lobelia/base/parallel.h"
 #include "lobelia/builtin/creatures.h"
 #include "lobelia/builtin/pile.h"
+#include "support/mesh_volume.h"
 
 namespace lobelia {
 namespace {
 
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const Vec3u& t : mesh.triangles)
-    sum += static_cast<double>(
-               dot(mesh.positions[t.x], cross(mesh.positions[t.y], mesh.positions[t.z]))) /
-           6;
-  return sum;
-}
+using test::volume;
 
 // Edges that have no partner in the other direction.
 int openEdges(const Mesh& mesh) {

@@ -8,19 +8,12 @@
 #include "lobelia/builtin/solids.h"
 #include "lobelia/builtin/sweep.h"
 #include "lobelia/builtin/textures.h"
+#include "support/mesh_volume.h"
 
 namespace lobelia::builtin {
 namespace {
 
-// By the divergence theorem; right only for closed meshes that are oriented outwards.
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const Vec3u& t : mesh.triangles)
-    sum += static_cast<double>(
-               dot(mesh.positions[t.x], cross(mesh.positions[t.y], mesh.positions[t.z]))) /
-           6;
-  return sum;
-}
+using test::volume;
 
 // Normals and uv for every vertex, triangles with area whose side the normals agree with.
 void expectSound(const Mesh& mesh) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "lobelia/app/frame_setup.h"
+#include "lobelia/app/sampled_film.h"
 #include "lobelia/base/error.h"
 
 namespace lobelia::app {
@@ -91,9 +92,7 @@ void LightLayers::addLayers(const Receivers& receivers, const std::vector<Rgb>& 
       const ReceiverPoint& point = receivers.points[i];
       const Component hidden = direct && point.primary ? Component::indirect : Component::direct;
       if (component_ == hidden) continue;
-      const Rgb value = light[k * points + i];
-      float* p = &layers[k]->values[size_t{point.pixel} * 3];
-      p[0] += value.x, p[1] += value.y, p[2] += value.z;
+      addTo(*layers[k], point.pixel, light[k * points + i]);
     }
   }
 }

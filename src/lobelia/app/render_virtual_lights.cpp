@@ -12,11 +12,6 @@
 namespace lobelia::app {
 namespace {
 
-void addToLayer(Film& film, const char* name, size_t pixel, Rgb value) {
-  float* p = &film.layers.at(name).values[pixel * 3];
-  p[0] += value.x, p[1] += value.y, p[2] += value.z;
-}
-
 // Sample by sample, band by band: the band's receivers, then runs of them gathered. Between runs a
 // render may stop or be saved, and another run of the program goes on there.
 class VirtualLightRender {
@@ -161,8 +156,8 @@ class VirtualLightRender {
     if (indirectParts) layers_->add(run, *indirectParts, false);
     for (size_t i = 0; i < run.points.size(); ++i) {
       const ReceiverPoint& point = run.points[i];
-      addToLayer(film_, point.primary ? "direct" : "indirect", point.pixel, direct[i]);
-      addToLayer(film_, "indirect", point.pixel, indirect[i]);
+      addTo(film_.layers.at(point.primary ? "direct" : "indirect"), point.pixel, direct[i]);
+      addTo(film_.layers.at("indirect"), point.pixel, indirect[i]);
     }
     return true;
   }

@@ -5,6 +5,7 @@
 #include "lobelia/app/band_plan.h"
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/replay_text.h"
+#include "lobelia/app/sampled_film.h"
 
 namespace lobelia::app {
 namespace {
@@ -102,8 +103,8 @@ class LightReplay {
     for (size_t i = 0; i < run.points.size(); ++i) {
       const ReceiverPoint& point = run.points[i];
       if (!mine(point)) continue;
-      add(point.primary ? "direct" : "indirect", direct[i]);
-      add("indirect", indirect[i]);
+      addTo(film_.layers.at(point.primary ? "direct" : "indirect"), pixel_, direct[i]);
+      addTo(film_.layers.at("indirect"), pixel_, indirect[i]);
       if (!shown) continue;
       fmt::print(
           "  receiver at {}  depth {}  lobes {}  weight {}\n    gathered: direct {}  "
@@ -112,11 +113,6 @@ class LightReplay {
           text(indirect[i]));
       printBrightest(slice(run, i, i + 1));
     }
-  }
-
-  void add(const char* layer, Rgb value) {
-    float* p = &film_.layers.at(layer).values[size_t{pixel_} * 3];
-    p[0] += value.x, p[1] += value.y, p[2] += value.z;
   }
 
   // Lights alone, each for itself: their sum may differ from the gathered one by rounding.

@@ -4,6 +4,11 @@
 
 namespace lobelia::app {
 
+void addTo(Layer& layer, size_t pixel, Rgb value) {
+  float* p = &layer.values[pixel * 3];
+  p[0] += value.x, p[1] += value.y, p[2] += value.z;
+}
+
 void addFields(StateFields& state, Film& film) {
   for (auto& [name, layer] : film.layers) state.add("layer/" + name, layer.values);
 }

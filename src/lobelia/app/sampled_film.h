@@ -11,6 +11,9 @@
 
 namespace lobelia::app {
 
+// Adds to a pixel of an RGB layer.
+void addTo(Layer& layer, size_t pixel, Rgb value);
+
 // All layers of the film, as state of a render.
 void addFields(StateFields& state, Film& film);
 

@@ -43,14 +43,6 @@ class GlossyBox : SceneBuilder {
   }
 
  private:
-  TextureHandle bitmap(Image image, std::string name) {
-    image.name = std::move(name);
-    Texture texture;
-    texture.type = TextureType::bitmap;
-    texture.image = add(std::move(image));
-    texture.uvMatrix[1][1] = 2;  // panels are twice as high as wide
-    return add(texture);
-  }
   TextureHandle times(TextureHandle a, float factor) {
     Texture texture;
     texture.type = TextureType::scale;
@@ -105,10 +97,13 @@ class GlossyBox : SceneBuilder {
     const auto exponent = [&](Vec2f uv) {  // of 200
       return pick(uv, Rgb(0.08f + 0.16f * uv.y), Rgb(0.5f), Rgb(0.25f), Rgb(1.f), Rgb(0.4f)).x;
     };
-    const TextureHandle color = bitmap(colorImage(kSize, kSize, base), "screen-colour"),
-                        specular = bitmap(colorImage(kSize, kSize, gloss), "screen-gloss"),
-                        sharpness = times(
-                            bitmap(dataImage(kSize, kSize, exponent), "screen-exponent"), 200);
+    const Vec2f kPanels(1, 2);  // twice as high as wide
+    const TextureHandle color = addBitmap(colorImage(kSize, kSize, base), kPanels, "screen-colour"),
+                        specular =
+                            addBitmap(colorImage(kSize, kSize, gloss), kPanels, "screen-gloss"),
+                        sharpness = times(addBitmap(dataImage(kSize, kSize, exponent), kPanels,
+                                                    "screen-exponent"),
+                                          200);
     return add(phong(color, specular, sharpness), "flowered lacquer");
   }
 

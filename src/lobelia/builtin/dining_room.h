@@ -18,7 +18,6 @@ class DiningRoom : SceneBuilder {
   static constexpr float kTable = 0.76f;  // height of the table's top
   static constexpr double kTableTop = 0.76;
 
-  TextureHandle bitmap(Image image, const char* name, float scaleU, float scaleV);
   Mesh block(Vec3f half, float radius) const;
   void put(Mesh mesh, Vec3d at, MaterialHandle material, const std::string& name);
   Emitter lamp(Rgb radiance) const;

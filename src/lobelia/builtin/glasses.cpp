@@ -21,11 +21,7 @@ class Glasses : SceneBuilder {
     place(add(roundedBox({2.4f, 0.06f, 1.7f}, 0.02f, segments(6, 1)), "table"),
           translation({0, -0.06, 0}), table, "table");
     addVessels();
-    Emitter hall;
-    hall.type = EmitterType::environment;
-    hall.image = add(hallLight(256));
-    hall.toWorld = Transform(rotation({0, 1, 0}, 70));
-    add(hall, "hall");
+    addHallLight(*this, 70);
     addCamera("front", {0.25, 1.75, 3.9}, {0, 0.52, 0}, 36, 800, 600);
     scene().integrator = "path";
     scene().maxDepth = 10;

@@ -80,22 +80,13 @@ class Hall : SceneBuilder {
   }
 
  private:
-  TextureHandle bitmap(Image image, const char* name, float scaleU, float scaleV) {
-    image.name = name;
-    Texture texture;
-    texture.type = TextureType::bitmap;
-    texture.image = add(std::move(image));
-    texture.uvMatrix[0][0] = scaleU, texture.uvMatrix[1][1] = scaleV;
-    return add(texture);
-  }
-
   void addGround() {
     Tiles pattern;
     pattern.color = {0.52f, 0.47f, 0.41f}, pattern.grout = {0.25f, 0.23f, 0.21f};
     pattern.columns = pattern.rows = 4;
     pattern.toneSpread = 0.10f;
     const MaterialHandle stone =
-        add(diffuse(bitmap(tiles(pattern, 256).color, "paving", 18, 18)), "paving");
+        add(diffuse(addBitmap(tiles(pattern, 256).color, {18, 18}, "paving")), "paving");
     place(add(io::unitRectangle(), "ground"), rotation({1, 0, 0}, -90) * scaling(Vec3d(90)), stone,
           "ground");
     // Stairs that widen towards the court.
@@ -181,7 +172,7 @@ class Hall : SceneBuilder {
       const bool seam = std::min(fx, 1 - fx) < 0.012f || std::min(fy, 1 - fy) < 0.024f;
       return seam ? 0.55f : 0.16f + 0.10f * cellRandom(column, row, 77);
     });
-    const TextureHandle texture = bitmap(roughness, "panel-roughness", 1, 1);
+    const TextureHandle texture = addBitmap(roughness, {1, 1}, "panel-roughness");
     const MaterialHandle steel = add(metal(kSteel, texture), "brushed steel");
     const MaterialHandle bright = add(metal(kAluminium, 0.10f), "polished steel");
     for (size_t i = 0; i < kSails.size(); ++i) {

@@ -76,4 +76,12 @@ Image hallLight(int height) {
   return image;
 }
 
+void addHallLight(SceneBuilder& scene, double degrees) {
+  Emitter hall;
+  hall.type = EmitterType::environment;
+  hall.image = scene.add(hallLight(256));
+  hall.toWorld = Transform(rotation({0, 1, 0}, degrees));
+  scene.add(hall, "hall");
+}
+
 }  // namespace lobelia::builtin

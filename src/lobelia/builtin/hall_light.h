@@ -1,11 +1,13 @@
 // A generated environment: a warm hall with tall windows and lamps (internal to this room).
 #pragma once
 
-#include "lobelia/scene/texture.h"
+#include "lobelia/builtin/scene_builder.h"
 
 namespace lobelia::builtin {
 
 // Equirectangular, y up, `height` rows and twice as many columns.
 Image hallLight(int height);
+// As the scene's environment, turned about y.
+void addHallLight(SceneBuilder& scene, double degrees);
 
 }  // namespace lobelia::builtin

@@ -35,15 +35,6 @@ Scene DiningRoom::make() {
   return take();
 }
 
-TextureHandle DiningRoom::bitmap(Image image, const char* name, float scaleU, float scaleV) {
-  image.name = name;
-  Texture texture;
-  texture.type = TextureType::bitmap;
-  texture.image = add(std::move(image));
-  texture.uvMatrix[0][0] = scaleU, texture.uvMatrix[1][1] = scaleV;
-  return add(texture);
-}
-
 Mesh DiningRoom::block(Vec3f half, float radius) const {
   return withProjectedUvs(roundedBox(half, radius, segments(3, 1)));
 }
@@ -64,14 +55,14 @@ void DiningRoom::addMaterials() {
   oak.planks = 8;
   oak.seed = 4;
   const SurfaceImages planks = builtin::wood(oak, 512);
-  const TextureHandle plankColor = bitmap(planks.color, "floor-colour", 2.5f, 2.5f),
-                      plankRoughness = bitmap(planks.roughness, "floor-roughness", 2.5f, 2.5f);
+  const TextureHandle plankColor = addBitmap(planks.color, {2.5f, 2.5f}, "floor-colour"),
+                      plankRoughness = addBitmap(planks.roughness, {2.5f, 2.5f}, "floor-roughness");
   floor_ = add(coated(plankColor, plankRoughness), "oak floor");
   Wood walnut;
   walnut.light = {0.23f, 0.115f, 0.055f}, walnut.dark = {0.095f, 0.042f, 0.02f};
   walnut.planks = 1, walnut.seed = 9, walnut.roughness = 0.12f;
   const SurfaceImages board = builtin::wood(walnut, 512);
-  wood_ = add(coated(bitmap(board.color, "walnut-colour", 1, 1), 0.14f), "walnut");
+  wood_ = add(coated(addBitmap(board.color, {1, 1}, "walnut-colour"), 0.14f), "walnut");
   wall_ = add(diffuse(Rgb(0.52f, 0.50f, 0.42f)), "wall");
   panel_ = add(coated(Rgb(0.16f, 0.24f, 0.22f), 0.25f), "panelling");
   ceiling_ = add(diffuse(Rgb(0.74f, 0.72f, 0.68f)), "ceiling");
@@ -129,7 +120,7 @@ void DiningRoom::addShell() {
     return Rgb(0.06f, 0.09f, 0.20f);
   });
   place(add(roundedBox({1.7f, 0.006f, 1.15f}, 0.005f, 1), "rug"), translation({0, 0.006, 0.1}),
-        add(diffuse(bitmap(rug, "rug", 1, 1)), "rug"), "rug");
+        add(diffuse(addBitmap(rug, {1, 1}, "rug")), "rug"), "rug");
 }
 
 void DiningRoom::addPanels(const Mat4& wall, double half, const char* side) {

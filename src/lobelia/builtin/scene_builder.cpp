@@ -36,7 +36,8 @@ TextureHandle SceneBuilder::add(Rgb constant) {
 ImageHandle SceneBuilder::add(Image image) {
   return append<ImageHandle>(scene_.images, std::move(image));
 }
-TextureHandle SceneBuilder::addBitmap(Image image, Vec2f perUv) {
+TextureHandle SceneBuilder::addBitmap(Image image, Vec2f perUv, std::string name) {
+  if (!name.empty()) image.name = std::move(name);
   Texture texture;
   texture.type = TextureType::bitmap;
   texture.image = add(std::move(image));

@@ -33,7 +33,7 @@ class SceneBuilder {
   TextureHandle add(Rgb constant);
   ImageHandle add(Image image);
   // An image that repeats every 1 / perUv of the texture coordinates.
-  TextureHandle addBitmap(Image image, Vec2f perUv = {1, 1});
+  TextureHandle addBitmap(Image image, Vec2f perUv = {1, 1}, std::string name = {});
   // `material` on a surface whose height is `height` (0 to 1) times `metres`.
   MaterialHandle addBumped(Material material, TextureHandle height, float metres, std::string name);
   MeshHandle add(Mesh mesh, std::string name);

@@ -11,25 +11,13 @@
 
 #include "lobelia/builtin/closed_room.h"
 #include "lobelia/builtin/makers.h"
+#include "lobelia/builtin/scene_builder.h"
 #include "lobelia/builtin/shapes.h"
 #include "lobelia/io/mesh_io.h"
 
 namespace lobelia::builtin {
 namespace {
 
-Material diffuse(Rgb color) {
-  Material m;
-  m.diffuse = color;
-  return m;
-}
-Material phong(Rgb base, Rgb gloss, float exponent) {
-  Material m;
-  m.type = MaterialType::phong;
-  m.diffuse = base;
-  m.specular = gloss;
-  m.alphaU = m.alphaV = exponent;
-  return m;
-}
 Material metal(Rgb reflectance, float alpha) {
   Material m;
   m.specular = reflectance;
@@ -49,13 +37,6 @@ Material coated(Rgb base, float alpha) {
   m.alphaU = m.alphaV = alpha;
   return m;
 }
-Material glass() {
-  Material m;
-  m.type = MaterialType::dielectric;
-  m.ior = 1.5f;
-  return m;
-}
-
 constexpr float kRounding = 0.3f;
 
 class StudyBox {
@@ -88,7 +69,7 @@ class StudyBox {
     emitter.name = "lamp";
     emitter.radiance = radiance;
     scene_.emitters.push_back(emitter);
-    add(io::unitRectangle(), toWorld, diffuse(Rgb(0.f)), "lamp");
+    add(io::unitRectangle(), toWorld, SceneBuilder::diffuse(Rgb(0.f)), "lamp");
     scene_.instances.back().emitter = {0};
   }
   void addCeilingLamp() {
@@ -135,15 +116,17 @@ const Rgb kGrey(0.72f, 0.70f, 0.66f), kRed(0.62f, 0.10f, 0.07f), kBlue(0.10f, 0.
 
 Scene makeStudyDiffuse(float detail) {
   StudyBox box(detail);
-  box.addRoom(diffuse(kGrey), diffuse(kRed), diffuse(kBlue), false);
+  box.addRoom(SceneBuilder::diffuse(kGrey), SceneBuilder::diffuse(kRed),
+              SceneBuilder::diffuse(kBlue), false);
   box.addCeilingLamp();
   return box.finish();
 }
 
 Scene makeStudyPhong(float detail) {
   StudyBox box(detail);
-  box.addRoom(phong(kGrey * 0.5f, Rgb(0.35f), 30), phong(kRed * 0.5f, Rgb(0.4f), 20),
-              phong(kBlue * 0.5f, Rgb(0.4f), 50), false);
+  box.addRoom(SceneBuilder::phong(kGrey * 0.5f, Rgb(0.35f), 30),
+              SceneBuilder::phong(kRed * 0.5f, Rgb(0.4f), 20),
+              SceneBuilder::phong(kBlue * 0.5f, Rgb(0.4f), 50), false);
   box.addCeilingLamp();
   return box.finish();
 }
@@ -158,16 +141,18 @@ Scene makeStudyGgx(float detail) {
 // All light comes through a slab of glass before the window.
 Scene makeStudyPane(float detail) {
   StudyBox box(detail);
-  box.addRoom(diffuse(kGrey), diffuse(kRed), diffuse(kBlue), true);
+  box.addRoom(SceneBuilder::diffuse(kGrey), SceneBuilder::diffuse(kRed),
+              SceneBuilder::diffuse(kBlue), true);
   box.addLamp(translation({-1.6, 0, 0}) * rotation({0, 1, 0}, 90) * scaling(Vec3d(0.8)), Rgb(6.f));
-  box.add(io::unitCube(), translation({-1.06, 0, 0}) * scaling({0.02, 0.85, 0.85}), glass(),
-          "pane");
+  box.add(io::unitCube(), translation({-1.06, 0, 0}) * scaling({0.02, 0.85, 0.85}),
+          SceneBuilder::glass(), "pane");
   return box.finish();
 }
 
 Scene makeStudyMirror(float detail) {
   StudyBox box(detail);
-  box.addRoom(diffuse(kGrey), diffuse(kRed), diffuse(kBlue), false);
+  box.addRoom(SceneBuilder::diffuse(kGrey), SceneBuilder::diffuse(kRed),
+              SceneBuilder::diffuse(kBlue), false);
   box.addCeilingLamp();
   box.add(io::unitRectangle(), translation({0, 0, -0.85}) * scaling({0.6, 0.6, 1}),
           metal(Rgb(0.9f), 0), "mirror");

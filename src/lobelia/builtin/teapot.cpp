@@ -106,11 +106,7 @@ class TeapotScene : SceneBuilder {
     place(add(teapot(fine), "teapot"), rotation({0, 1, 0}, 22), glaze, "teapot");
     place(add(cylinder(1.55f, 0.10f, 0.03f, segments(6, 1), segments(160, 16)), "table"),
           translation({0, -0.10, 0}), table, "table");
-    Emitter hall;
-    hall.type = EmitterType::environment;
-    hall.image = add(hallLight(256));
-    hall.toWorld = Transform(rotation({0, 1, 0}, 80));
-    add(hall, "hall");
+    addHallLight(*this, 80);
     addCamera("front", {0.35, 1.55, 3.1}, {0, 0.40, 0}, 40, 800, 600);
     scene().integrator = "path";
     scene().maxDepth = 10;

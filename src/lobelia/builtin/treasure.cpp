@@ -241,11 +241,7 @@ class Treasure : SceneBuilder {
   }
 
   void addLights() {
-    Emitter hall;
-    hall.type = EmitterType::environment;
-    hall.image = add(hallLight(256));
-    hall.toWorld = Transform(rotation({0, 1, 0}, 65));  // no window behind the crown
-    add(hall, "hall");
+    addHallLight(*this, 65);  // no window behind the crown
     Emitter lamp;
     lamp.type = EmitterType::point;
     lamp.radiance = Rgb(7.0f, 5.6f, 3.8f);

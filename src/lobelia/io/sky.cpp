@@ -7,6 +7,7 @@
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/io/atmosphere.h"
+#include "lobelia/scene/camera_path.h"
 
 namespace lobelia::io {
 namespace {
@@ -49,13 +50,8 @@ void fillRow(const std::vector<Rgb>& half, double sunAzimuth, Image* image, int 
 
 Vec3f upOf(const Scene& scene) {
   if (scene.cameras.empty()) return {0, 1, 0};
-  const Vec3f up = scene.cameras[0].toWorld.vector({0, 1, 0});
-  int axis = 0;
-  for (int i = 1; i < 3; ++i)
-    if (std::abs(up[i]) > std::abs(up[axis])) axis = i;
-  Vec3f result{};
-  result[axis] = up[axis] < 0 ? -1.f : 1.f;
-  return result;
+  const Vec3d up = verticalAxis(scene.cameras[0]);
+  return {static_cast<float>(up.x), static_cast<float>(up.y), static_cast<float>(up.z)};
 }
 
 // A rotation that takes y to one of the axes.
