@@ -74,7 +74,7 @@ void prepareSpheres(const VirtualLights& lights, const Scene& scene, LightBlock*
     out.end = liftedEnd(light.p, out.n);
     out.endBehind = liftedEnd(light.p, -out.n);
     out.transmits = sphere.transmits;
-    out.intensity = light.power / (kPi * sphere.squaredRadius * coveredShare(light));
+    out.intensity = light.power / (kPi * sphere.squaredRadius);
   }
 }
 
@@ -107,7 +107,7 @@ uint16_t groupOf(const VirtualLights& lights, LightClass lightClass, size_t inde
     case LightClass::diffuse:
       return static_cast<uint16_t>(lights.diffuse[index].tag >> 8);
     case LightClass::spherical:
-      return static_cast<uint16_t>(lights.spherical[index].tag >> 8);
+      return lights.spherical[index].group;
     case LightClass::glossy:
       break;
   }

@@ -36,8 +36,7 @@ void setDisc(const SphericalLight& light, Vec3f litNormal, PreparedSphere* spher
   sphere->radius = light.radius;
   sphere->squaredRadius = light.radius * light.radius;
   sphere->whole = (light.coverage[0] & light.coverage[1]) == ~0u;
-  for (int bit = 0; bit < kDiscCells * kDiscCells; ++bit)
-    sphere->covered[bit] = coversCell(light, bit) ? 1.f : 0.f;
+  if (!sphere->whole) sphere->weights = cellWeights(light);
 }
 
 void setRandom(const SphericalLight& light, PreparedSphere* sphere) {

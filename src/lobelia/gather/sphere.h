@@ -14,8 +14,8 @@ inline constexpr int kSphereGaussians = 2;
 struct PreparedSphere {
   Frame disc;  // n: geometric normal on the lit side
   float radius = 0, squaredRadius = 0;
-  bool whole = true;  // the whole disc lies on the surface
-  alignas(64) float covered[kDiscCells * kDiscCells];  // 1: cell lies on the surface
+  bool whole = true;  // the whole disc lies on the surface: all weights are 1
+  std::array<float, kDiscCellCount> weights;  // cellWeights()
 
   // Rough lobes that act for power from `wi`. A lobe's factor takes the cosine to the shading normal
   // for the cosine to the geometric one: the radiance that leaves along w is

@@ -238,7 +238,7 @@ class SphereView {
     }
     Vf indicator;
     if (planar_) {
-      indicator = select(onPlane, covered(hit), Vf(0.f));
+      indicator = select(onPlane, weightAt(hit), Vf(0.f));
     } else {
       indicator = select(inCone, max(cosLeave, Vf(0.f)), Vf(0.f));
     }
@@ -248,7 +248,7 @@ class SphereView {
                   Vf(0.f));
   }
 
-  HWY_INLINE Vf covered(V3<Vf> hit) const {
+  HWY_INLINE Vf weightAt(V3<Vf> hit) const {
     if (sphere_.whole) return Vf(1.f);
     const float scale = 0.5f * static_cast<float>(kDiscCells);
     const Vf inverse(scale / sphere_.radius), last(static_cast<float>(kDiscCells - 1));
@@ -256,7 +256,7 @@ class SphereView {
       return min(max(floor(dot(hit, broadcast(axis)) * inverse + Vf(scale)), Vf(0.f)), last);
     };
     const Vf x = cell(sphere_.disc.s), y = cell(sphere_.disc.t);
-    return lobelia::HWY_NAMESPACE::gather(sphere_.covered,
+    return lobelia::HWY_NAMESPACE::gather(sphere_.weights.data(),
                                           y * Vf(static_cast<float>(kDiscCells)) + x);
   }
 

@@ -70,8 +70,8 @@ Rgb leaving(const SpherePair& pair, const Cone& cone, Vec3f l) {
       const float x = std::floor((dot(hit, axis) / pair.sphere.radius + 1) * (kDiscCells / 2));
       return static_cast<int>(std::clamp(x, 0.f, kDiscCells - 1.f));
     };
-    if (pair.sphere.covered[cell(pair.sphere.disc.t) * kDiscCells + cell(pair.sphere.disc.s)] == 0)
-      return {};
+    const int index = cell(pair.sphere.disc.t) * kDiscCells + cell(pair.sphere.disc.s);
+    return leavingRadiance(pair.sphere, -l) * pair.sphere.weights[static_cast<size_t>(index)];
   }
   return leavingRadiance(pair.sphere, -l);
 }

@@ -53,7 +53,7 @@ void checkGroups(const std::string& file, const VirtualLights& lights) {
   for (const auto* groups : {&lights.omniGroups, &lights.directionalGroups, &lights.glossyGroups})
     for (const uint16_t g : *groups) last = std::max<size_t>(last, g);
   for (const DiffuseLight& l : lights.diffuse) last = std::max<size_t>(last, l.tag >> 8);
-  for (const SphericalLight& l : lights.spherical) last = std::max<size_t>(last, l.tag >> 8);
+  for (const SphericalLight& l : lights.spherical) last = std::max<size_t>(last, l.group);
   if (last >= std::max<size_t>(lights.groups.size(), 1))
     damaged(file, fmt::format("a light names light group {} of {}", last, lights.groups.size()));
 }

@@ -126,7 +126,7 @@ void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, C
       &lights->glossyGroups);
   lights->sphericalDepthEnds = sortByDepth(
       batches, [](const ParticleBatch& b) -> auto& { return b.spherical; },
-      [](const ParticleBatch& b, size_t i) -> size_t { return b.spherical[i].tag & 0xff; },
+      [](const ParticleBatch& b, size_t i) -> size_t { return b.spherical[i].depth; },
       &lights->spherical);
   ParticleBatch total;
   for (const ParticleBatch& b : batches) {

@@ -53,7 +53,9 @@ struct SphericalLight {
   float b1, b2;
   // Cells of the disc in the tangent plane that lie on the surface (spherical_coverage.h).
   uint32_t coverage[2];
-  uint32_t tag;  // depth in the low 8 bits, group above
+  uint16_t group;
+  uint8_t depth;
+  bool walled;  // the rest of the disc lies behind other surfaces, rather than beyond an edge
 };
 static_assert(sizeof(SphericalLight) == 60);
 
@@ -81,7 +83,7 @@ struct VirtualLights {
   std::vector<SphericalLight> spherical;
   std::vector<uint32_t> diffuseDepthEnds, glossyDepthEnds, sphericalDepthEnds;
   // Light groups (LightGroups): their names, and the group of every light as an index into them;
-  // parallel to the lights, for diffuse and spherical lights in their tag. Empty: all lights are of group 0.
+  // parallel to the lights, for diffuse and spherical lights in them. Empty: all lights are of group 0.
   std::vector<std::string> groups;
   std::vector<uint16_t> omniGroups, directionalGroups, glossyGroups;
   uint64_t sceneHash = 0;
