@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "lobelia/base/random.h"
-#include "lobelia/bsdf/gaussians.h"
+#include "lobelia/bsdf/albedo.h"
+#include "lobelia/bsdf/gaussian_shape.h"
 #include "lobelia/bsdf/lobe_kind.h"
 #include "lobelia/bsdf/scalar_lobe.h"
 #include "lobelia/lobes/spherical_gaussian.h"
@@ -13,17 +14,20 @@
 namespace lobelia::gather {
 namespace {
 
-// Gaussians per lobe of a fit for drawing directions: GGX takes two.
+// Per lobe, for drawing directions: GGX takes two.
 constexpr int kFitGaussians = 2;
 
-void addLobes(const Bsdf& bsdf, Vec3f wi, PreparedSphere* sphere) {
+// indices: of the BSDF's lobes among the sphere's, -1 for others.
+void addLobes(const Bsdf& bsdf, Vec3f wi, PreparedSphere* sphere, int* indices) {
   for (int l = 0; l < bsdf.lobeCount; ++l) {
     const Lobe& lobe = bsdf.lobes[l];
+    indices[l] = -1;
     if (lobe.sharp || isDelta(lobe)) continue;
     const ShadingFrame& frame = bsdf.frameOf(lobe);
     const float share = arrivingShare(bsdf, frame, wi);
     const Vec3f local = frame.toLocal(wi);
     if (!(share > 0) || local.z == 0) continue;
+    indices[l] = sphere->lobeCount;
     // arrivingShare() counts f without its cosine; the lobe's value has it.
     PreparedSphere::LightLobe& out = sphere->lobes[sphere->lobeCount++];
     out = {lobe, frame, local, share / std::abs(local.z)};
@@ -51,24 +55,45 @@ void setRandom(const SphericalLight& light, PreparedSphere* sphere) {
 
 }  // namespace
 
-int strongestGaussians(const Bsdf& bsdf, Vec3f w, PreparedSphere::Gaussian* gaussians,
-                       float* diffuse) {
-  const LobeExpansion all = expand(bsdf, w, kFitGaussians);
-  *diffuse = luminance(all.diffuse + all.diffuseTransmitted) * kInvPi;
-  std::pair<float, int> order[LobeExpansion::kMaxGaussians];
+SamplingLobes samplingLobes(const Bsdf& bsdf, Vec3f w) {
+  SamplingLobes result;
+  PreparedSphere::Gaussian all[kMaxLobes * kFitGaussians];
+  std::pair<float, int> order[kMaxLobes * kFitGaussians];
   int count = 0;
-  for (int i = 0; i < all.count; ++i) {
-    const GaussianLobe& g = all.gaussians[static_cast<size_t>(i)];
-    const float energy = luminance(g.amplitude) * lobes::integral(g.sharpness);
-    if (energy > 0 && std::isfinite(energy)) order[count++] = {-energy, i};
+  float strongest = 0;
+  for (int l = 0; l < bsdf.lobeCount; ++l) {
+    const Lobe& lobe = bsdf.lobes[l];
+    const ShadingFrame& frame = bsdf.frameOf(lobe);
+    Vec3f local = frame.toLocal(w);
+    const float energy = luminance(lobeAlbedo(lobe, local.z));
+    if (lobe.sharp || isDelta(lobe) || !(energy > 0) || !std::isfinite(energy)) continue;
+    if (isDiffuse(lobe.type) || lobe.type == LobeType::diffuseTransmission) {
+      result.diffuse += energy * kInvPi;
+      continue;
+    }
+    const bool behind = local.z < 0;
+    if (behind) local = flipZ(local);
+    ShapePart parts[kFitGaussians];
+    const int partCount = shapeOf(lobe, local, behind && lobe.interface, parts);
+    for (int i = 0; i < partCount; ++i) {
+      const Vec3f axis = behind ? flipZ(parts[i].axis) : parts[i].axis;
+      const float sharpness = std::clamp(parts[i].sharpness, 1e-3f, 1e7f);
+      order[count] = {-energy * parts[i].share, count};
+      all[count++] = {frame.toWorld(axis), sharpness,
+                      energy * parts[i].share / lobes::integral(sharpness)};
+      result.sharpest = std::max(result.sharpest, sharpness);
+    }
+    if (drawnByHalfVector(lobe) && energy > strongest) {
+      strongest = energy;
+      result.halfLobe = l;
+      const float thin = std::max(std::min(lobe.alphaX, lobe.alphaY), 1e-3f);
+      result.sharpest = std::max(result.sharpest, 0.5f / (thin * thin));
+    }
   }
   std::sort(order, order + count);
-  count = std::min(count, kSphereGaussians);
-  for (int i = 0; i < count; ++i) {
-    const GaussianLobe& g = all.gaussians[static_cast<size_t>(order[i].second)];
-    gaussians[i] = {g.axis, g.sharpness, luminance(g.amplitude)};
-  }
-  return count;
+  result.gaussianCount = std::min(count, kSphereGaussians);
+  for (int i = 0; i < result.gaussianCount; ++i) result.gaussians[i] = all[order[i].second];
+  return result;
 }
 
 void prepareSphere(const Scene& scene, const SphericalLight& light, float specularLimit,
@@ -80,11 +105,14 @@ void prepareSphere(const Scene& scene, const SphericalLight& light, float specul
   sphere->lobeCount = 0, sphere->transmits = false;
   setDisc(light, dot(bsdf.ng, wi) < 0 ? -bsdf.ng : bsdf.ng, sphere);
   setRandom(light, sphere);
-  addLobes(bsdf, wi, sphere);
-  sphere->gaussianCount = strongestGaussians(bsdf, wi, sphere->gaussians, &sphere->diffuse);
-  sphere->sharpest = 0;
-  for (int i = 0; i < sphere->gaussianCount; ++i)
-    sphere->sharpest = std::max(sphere->sharpest, sphere->gaussians[i].sharpness);
+  int indices[kMaxLobes];
+  addLobes(bsdf, wi, sphere, indices);
+  const SamplingLobes sampling = samplingLobes(bsdf, wi);
+  sphere->diffuse = sampling.diffuse;
+  sphere->gaussianCount = sampling.gaussianCount;
+  std::copy_n(sampling.gaussians, sampling.gaussianCount, sphere->gaussians);
+  sphere->sharpest = sampling.sharpest;
+  sphere->halfLobe = sampling.halfLobe < 0 ? -1 : indices[sampling.halfLobe];
 }
 
 Rgb leavingRadiance(const PreparedSphere& sphere, Vec3f w) {

@@ -37,7 +37,8 @@ struct PreparedSphere {
   float diffuse = 0;
   int gaussianCount = 0;
   Gaussian gaussians[kSphereGaussians];
-  float sharpest = 0;  // of the Gaussians
+  float sharpest = 0;  // of the lobes, across their thinner axis
+  int halfLobe = -1;   // strongest of those that are drawn by their half vector (drawnByHalfVector)
   float random[3];     // in [0,1)
   bool transmits = false;
 };
@@ -50,9 +51,20 @@ void prepareSphere(const Scene& scene, const SphericalLight& light, float specul
 // of what the kernel does.
 Rgb leavingRadiance(const PreparedSphere& sphere, Vec3f w);
 
-// Largest Gaussians of a BSDF for light from (or towards) w, strongest first, and the luminance of
-// the rest. Returns how many there are.
-int strongestGaussians(const Bsdf& bsdf, Vec3f w, PreparedSphere::Gaussian* gaussians,
-                       float* diffuse);
+// What directions are drawn by, of a BSDF for light from (or towards) w.
+struct SamplingLobes {
+  float diffuse = 0;  // luminance of the cosine-like part, per steradian
+  int gaussianCount = 0;
+  PreparedSphere::Gaussian gaussians[kSphereGaussians];  // strongest first
+  float sharpest = 0;                                    // see PreparedSphere
+  int halfLobe = -1;                                     // index into the BSDF's lobes
+};
+SamplingLobes samplingLobes(const Bsdf& bsdf, Vec3f w);
+
+// Reflection by micro-normals of slopes that are Gaussian or GGX: anisotropic and grazing lobes, which
+// no Gaussian of directions fits, are drawn exactly.
+inline bool drawnByHalfVector(const Lobe& lobe) {
+  return lobe.type == LobeType::ward || lobe.type == LobeType::microfacetReflection;
+}
 
 }  // namespace lobelia::gather

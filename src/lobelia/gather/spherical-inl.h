@@ -6,8 +6,8 @@
 // Directions. A base that covers all that counts: points of the disc, far away; the cone around the
 // sphere, nearer than two radii; the hemisphere below the disc's plane, inside of the sphere. Where
 // the cone is wide against the lobes, half of the directions (at most) come from the products of the
-// two ends' Gaussians instead, weighted by the balance heuristic as one mixture: the density never
-// falls below half of the base's.
+// two ends' Gaussians instead, or from the micro-normals of either end, weighted by the balance
+// heuristic as one mixture: the density never falls below half of the base's.
 //
 // Deviations from the paper, each a setting: the indicator is whether l meets the disc in the
 // tangent plane where it lies on the surface (SphereShading::planar; spherical_coverage.h), for
@@ -54,6 +54,42 @@ HWY_INLINE Vf vmfDensity(V3<Vf> axis, Vf sharpness, V3<Vf> l) {
   return exp(Vf(-0.5f) * sharpness * squaredDistance(axis, l)) / sgIntegral(sharpness);
 }
 
+// Reflection by micro-normals of one lobe, for points of a register or for one light: drawn by the
+// slopes of the micro-normal. Directions in the lobe's frame.
+struct HalfVectorLobe {
+  Distribution distribution;  // ggx or beckmann
+  Vf alphaX, alphaY;
+  V3<Vf> s, t, n;  // n on the side of w
+  V3<Vf> w;        // the given direction
+
+  HWY_INLINE void set(const V3<Vf>& s_, const V3<Vf>& t_, const V3<Vf>& n_, const V3<Vf>& local) {
+    const Vf sign = select(local.z < Vf(0.f), Vf(-1.f), Vf(1.f));
+    s = s_, t = t_, n = n_ * sign;
+    w = {local.x, local.y, local.z * sign};
+  }
+  // World space.
+  HWY_INLINE V3<Vf> sample(Vf u, Vf cosPhi, Vf sinPhi) const {
+    const Vf rest = max(Vf(1.f) - u, Vf(1e-7f));
+    const Vf r2 = distribution == Distribution::ggx ? u / rest : Vf(0.f) - log(rest);
+    const Vf r = sqrt(max(r2, Vf(0.f)));
+    const V3<Vf> h = unitVector(V3<Vf>{alphaX * r * cosPhi, alphaY * r * sinPhi, Vf(1.f)});
+    const V3<Vf> l = h * (Vf(2.f) * dot(w, h)) - w;
+    return s * l.x + t * l.y + n * l.z;
+  }
+  HWY_INLINE Vf density(V3<Vf> world) const {
+    const V3<Vf> l{dot(world, s), dot(world, t), dot(world, n)};
+    const V3<Vf> h = unitVector(w + l);
+    const Vf cosine = dot(w, h);
+    const Vf d = microfacetDensity(distribution, alphaX, alphaY, h) * h.z /
+                 max(Vf(4.f) * cosine, Vf(1e-6f));
+    return select((h.z > Vf(0.f)) & (cosine > Vf(0.f)), d, Vf(0.f));
+  }
+};
+HWY_INLINE Distribution slopesOf(LobeType type, Distribution distribution) {
+  return type != LobeType::ward && distribution == Distribution::ggx ? Distribution::ggx
+                                                                     : Distribution::beckmann;
+}
+
 // What all directions of the points of a register to one light have in common.
 class SphereView {
  public:
@@ -93,19 +129,19 @@ class SphereView {
     V3<Vf> axis = direction_;
     Vf oneMinusCos = u * oneMinusCosMax_;
     axis = select(hemisphere_, n_ * (Vf(0.f) - side_), axis);
-    Mf onDisc = disc_;
-    if (lobeCount_ > 0) {
+    Mf onDisc = disc_, byHalf = choice < Vf(0.f);
+    if (mixed_) {
       const Mf byLobe = choice < share_;
       onDisc = onDisc & !byLobe;
-      V3<Vf> lobeAxis = axis_[0];
-      Vf sharpness = sharpness_[0];
-      Vf passed = probability_[0];
-      for (int i = 1; i < lobeCount_; ++i) {
+      V3<Vf> lobeAxis = direction_;
+      Vf sharpness(1.f), passed(0.f);
+      for (int i = 0; i < lobeCount_; ++i) {
         const Mf next = choice >= share_ * passed;
         lobeAxis = select(next, axis_[i], lobeAxis);
         sharpness = select(next, sharpness_[i], sharpness);
         passed = passed + probability_[i];
       }
+      byHalf = byLobe & (choice >= share_ * passed);
       // 1 - cos = -log(1 - u (1 - e^-2k)) / k
       const Vf t = Vf(0.f) - log(max(Vf(1.f) - u * (Vf(1.f) - exp(Vf(-2.f) * sharpness)),
                                      Vf(1e-30f))) /
@@ -115,6 +151,13 @@ class SphereView {
     }
     V3<Vf> l = direction_;
     if (!all(onDisc)) l = aroundAxis(axis, oneMinusCos, cosPhi, sinPhi);
+    if (any(byHalf)) {
+      const Mf byLight = byHalf & (choice >= share_ * (Vf(1.f) - lightHalfProbability_));
+      if (sampling_.halfLobe >= 0)
+        l = select(byHalf, receiverHalf_.sample(u, cosPhi, sinPhi), l);
+      if (sphere_.halfLobe >= 0)
+        l = select(byLight, lightHalf_.sample(u, cosPhi, sinPhi) * Vf(-1.f), l);
+    }
     if (any(onDisc)) {
       const Vf radius = sqrt(u) * Vf(sphere_.radius);
       const V3<Vf> q = d_ + broadcast(sphere_.disc.s) * (radius * cosPhi) +
@@ -151,7 +194,8 @@ class SphereView {
   // in the cone, roughly; and the number of directions.
   void chooseLobes(const SphereShading& shading) {
     lobeCount_ = 0;
-    share_ = Vf(0.f);
+    mixed_ = false;
+    share_ = receiverHalfProbability_ = lightHalfProbability_ = Vf(0.f);
     Vf overlap = solidAngle_;
     const Vf sharpest = Vf::load(sampling_.sharpest + lane_) + Vf(sphere_.sharpest);
     // Every product is wider than this: where the cone is narrow against it, the base is best.
@@ -163,55 +207,91 @@ class SphereView {
   void weighLobes(Vf* overlap) {
     const Vf cone = sqrt(Vf(2.f) * oneMinusCosMax_);  // its chord
     const Vf diffuseX = Vf::load(sampling_.diffuse + lane_);
+    const bool halfX = sampling_.halfLobe >= 0, halfY = sphere_.halfLobe >= 0;
     Vf mass = diffuseX * Vf(sphere_.diffuse) * solidAngle_, useful(0.f);
     Vf spread = mass * solidAngle_;
-    const auto add = [&](V3<Vf> v, Vf length, Vf amplitude, Vf exponent) {
-      const Vf sharpness = max(length, Vf(1e-3f));
-      const V3<Vf> axis = v * (Vf(1.f) / max(length, Vf(1e-20f)));
+    // Returns the mass for which directions of this lobe are of use.
+    const auto weigh = [&](V3<Vf> axis, Vf sharpness, Vf amplitude, Vf exponent) {
       const Vf apart = max(sqrt(squaredDistance(axis, direction_)) - cone, Vf(0.f));
-      const Vf area = min(sgIntegral(sharpness), solidAngle_);
+      const Vf whole = sgIntegral(sharpness), area = min(whole, solidAngle_);
       const Vf weight = amplitude * exp(exponent - Vf(0.5f) * sharpness * apart * apart) * area;
-      // 0 where the cone is an eighth of the lobe, 1 from a half on.
-      const Vf ratio = solidAngle_ / sgIntegral(sharpness);
-      const Vf worth = min(max((ratio - Vf(kNarrow)) * Vf(1.f / (0.5f - kNarrow)), Vf(0.f)),
-                           Vf(1.f));
       mass = mass + weight;
       spread = spread + weight * area;
-      useful = useful + weight * worth;
-      axis_[lobeCount_] = axis;
-      sharpness_[lobeCount_] = sharpness;
-      probability_[lobeCount_++] = weight * worth;
+      // 0 where the cone is an eighth of the lobe, 1 from a half on.
+      const Vf worth = (solidAngle_ / whole - Vf(kNarrow)) * Vf(1.f / (0.5f - kNarrow));
+      return weight * min(max(worth, Vf(0.f)), Vf(1.f));
     };
+    const auto add = [&](V3<Vf> axis, Vf sharpness, Vf weight) {
+      axis_[lobeCount_] = axis, sharpness_[lobeCount_] = sharpness;
+      probability_[lobeCount_++] = weight;
+      useful = useful + weight;
+    };
+    Vf byReceiver(0.f), byLight(0.f);
     for (int j = 0; j < sphere_.gaussianCount; ++j) {
       const g::PreparedSphere::Gaussian& y = sphere_.gaussians[j];
       const V3<Vf> back = broadcast(-y.axis);  // as a function of the direction from x
       const Vf sharpness(y.sharpness), amplitude(y.amplitude);
-      if (any(diffuseX > Vf(0.f))) add(back * sharpness, sharpness, diffuseX * amplitude, Vf(0.f));
+      if (any(diffuseX > Vf(0.f))) {
+        const Vf weight = weigh(back, sharpness, diffuseX * amplitude, Vf(0.f));
+        halfY ? void(byLight = byLight + weight) : add(back, sharpness, weight);
+      }
       for (size_t i = 0; i < strip_.gaussianCount; ++i) {
         const g::GaussianStrip& x = tile_.gaussians[strip_.firstGaussian + i];
-        const V3<Vf> axis = load(x.axis, lane_);
+        const V3<Vf> axisX = load(x.axis, lane_);
         const Vf sharpnessX = Vf::load(x.sharpness + lane_);
-        const V3<Vf> v = axis * sharpnessX + back * sharpness;
+        const V3<Vf> v = axisX * sharpnessX + back * sharpness;
         const Vf length = sqrt(dot(v, v));
         const Vf sum = max(length + sharpnessX + sharpness, Vf(1e-20f));
-        add(v, length, Vf::load(x.amplitude + lane_) * amplitude,
-            Vf(0.f) - sharpnessX * sharpness * squaredDistance(axis, back) / sum);
+        const V3<Vf> axis = v * (Vf(1.f) / max(length, Vf(1e-20f)));
+        const Vf product = max(length, Vf(1e-3f));
+        Vf weight = weigh(axis, product, Vf::load(x.amplitude + lane_) * amplitude,
+                          Vf(0.f) - sharpnessX * sharpness * squaredDistance(axisX, back) / sum);
+        // What is drawn exactly has a part: the product's shape is none of a Gaussian's there.
+        const Vf part = weight * Vf(kExactPart);
+        if (halfX) byReceiver = byReceiver + part, weight = weight - part;
+        if (halfY) byLight = byLight + part, weight = weight - part;
+        add(axis, product, weight);
       }
     }
     if (sphere_.diffuse > 0) {
       for (size_t i = 0; i < strip_.gaussianCount; ++i) {
         const g::GaussianStrip& x = tile_.gaussians[strip_.firstGaussian + i];
+        const V3<Vf> axis = load(x.axis, lane_);
         const Vf sharpness = Vf::load(x.sharpness + lane_);
-        add(load(x.axis, lane_) * sharpness, sharpness,
-            Vf::load(x.amplitude + lane_) * Vf(sphere_.diffuse), Vf(0.f));
+        const Vf weight = weigh(axis, sharpness,
+                                Vf::load(x.amplitude + lane_) * Vf(sphere_.diffuse), Vf(0.f));
+        halfX ? void(byReceiver = byReceiver + weight) : add(axis, sharpness, weight);
       }
     }
+    useful = useful + byReceiver + byLight;
     const Mf some = useful > Vf(1e-30f);
+    if (any(some)) mixLobes(some, useful, mass, byReceiver, byLight);
+    *overlap = select(mass > Vf(1e-30f), spread / max(mass, Vf(1e-30f)), solidAngle_);
+  }
+
+  void mixLobes(Mf some, Vf useful, Vf mass, Vf byReceiver, Vf byLight) {
     const Vf inverse = Vf(1.f) / max(useful, Vf(1e-30f));
     for (int i = 0; i < lobeCount_; ++i) probability_[i] = probability_[i] * inverse;
+    receiverHalfProbability_ = byReceiver * inverse;
+    lightHalfProbability_ = byLight * inverse;
     share_ = select(some, Vf(0.5f) * min(useful / max(mass, Vf(1e-30f)), Vf(1.f)), Vf(0.f));
-    *overlap = select(mass > Vf(1e-30f), spread / max(mass, Vf(1e-30f)), solidAngle_);
-    if (!any(some)) lobeCount_ = 0;
+    mixed_ = true;
+    if (sampling_.halfLobe >= 0) {
+      const g::LobeStrip& lobe =
+          tile_.lobes[strip_.firstLobe + static_cast<size_t>(sampling_.halfLobe)];
+      receiverHalf_.distribution = slopesOf(lobe.type, lobe.distribution);
+      receiverHalf_.alphaX = Vf::load(lobe.alphaX + lane_);
+      receiverHalf_.alphaY = Vf::load(lobe.alphaY + lane_);
+      receiverHalf_.set(load(strip_.s, lane_), load(strip_.t, lane_), load(strip_.n, lane_),
+                        load(strip_.wo, lane_));
+    }
+    if (sphere_.halfLobe >= 0) {
+      const g::PreparedSphere::LightLobe& lobe = sphere_.lobes[sphere_.halfLobe];
+      lightHalf_.distribution = slopesOf(lobe.lobe.type, lobe.lobe.distribution);
+      lightHalf_.alphaX = Vf(lobe.lobe.alphaX), lightHalf_.alphaY = Vf(lobe.lobe.alphaY);
+      lightHalf_.set(broadcast(lobe.frame.s), broadcast(lobe.frame.t), broadcast(lobe.frame.n),
+                     broadcast(lobe.wi));
+    }
   }
 
   HWY_INLINE Vf indicatorOverDensity(V3<Vf> l, Mf onDisc) const {
@@ -230,10 +310,14 @@ class SphereView {
       const Vf onArea = t * t / (safe * Vf(kSgPi * sphere_.squaredRadius));
       density = select(disc_, select(onPlane, onArea, Vf(0.f)), density);
     }
-    if (lobeCount_ > 0) {
+    if (mixed_) {
       Vf lobes(0.f);
       for (int i = 0; i < lobeCount_; ++i)
         lobes = lobes + probability_[i] * vmfDensity(axis_[i], sharpness_[i], l);
+      if (sampling_.halfLobe >= 0)
+        lobes = lobes + receiverHalfProbability_ * receiverHalf_.density(l);
+      if (sphere_.halfLobe >= 0)
+        lobes = lobes + lightHalfProbability_ * lightHalf_.density(l * Vf(-1.f));
       density = density * (Vf(1.f) - share_) + select(share_ > Vf(0.f), share_ * lobes, Vf(0.f));
     }
     Vf indicator;
@@ -260,7 +344,7 @@ class SphereView {
                                           y * Vf(static_cast<float>(kDiscCells)) + x);
   }
 
-  static constexpr float kNarrow = 0.125f;
+  static constexpr float kNarrow = 0.125f, kExactPart = 0.25f;
   const g::Tile& tile_;
   const g::PointStrip& strip_;
   const g::SamplingStrip& sampling_;
@@ -270,6 +354,9 @@ class SphereView {
   V3<Vf> d_, direction_, n_;
   Vf d2_, side_, front_, oneMinusCosMax_, solidAngle_, samples_, share_;
   Mf disc_, hemisphere_;
+  bool mixed_ = false;
+  Vf receiverHalfProbability_, lightHalfProbability_;
+  HalfVectorLobe receiverHalf_, lightHalf_;
   int lobeCount_ = 0;
   V3<Vf> axis_[kMaxLobeProducts];
   Vf sharpness_[kMaxLobeProducts], probability_[kMaxLobeProducts];

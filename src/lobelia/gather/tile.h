@@ -60,7 +60,8 @@ struct GaussianStrip {
 };
 struct SamplingStrip {
   alignas(64) float diffuse[kStrip];   // luminance of the cosine-like rest, per steradian
-  alignas(64) float sharpest[kStrip];  // of the Gaussians
+  alignas(64) float sharpest[kStrip];  // of the lobes, across their thinner axis
+  int halfLobe = -1;  // of the strip's lobes, the one that most points draw by its half vector
   alignas(64) float random[3][kStrip];  // in [0,1)
 };
 

@@ -1,4 +1,5 @@
 // Receivers' Gaussians and random numbers, for spherical lights.
+#include <algorithm>
 #include <bit>
 
 #include "lobelia/base/random.h"
@@ -43,24 +44,26 @@ void addSampling(const Receivers& receivers, Tile* tile) {
     PointStrip& strip = tile->strips[s];
     SamplingStrip& sampling = tile->sampling[s];
     GaussianStrip found[kSphereGaussians] = {};
-    int most = 0;
+    int most = 0, votes[kMaxLobes] = {};
     for (size_t lane = 0; lane < kStrip; ++lane) {
       const ReceiverPoint& point = receivers.points[strip.point[lane]];
-      PreparedSphere::Gaussian gaussians[kSphereGaussians];
-      const int count = strongestGaussians(receiverBsdf(receivers, point), point.wo, gaussians,
-                                           &sampling.diffuse[lane]);
-      sampling.sharpest[lane] = 0;
+      const SamplingLobes lobes = samplingLobes(receiverBsdf(receivers, point), point.wo);
+      sampling.diffuse[lane] = lobes.diffuse;
+      sampling.sharpest[lane] = lobes.sharpest;
       for (int i = 0; i < kSphereGaussians; ++i) {
-        const PreparedSphere::Gaussian g =
-            i < count ? gaussians[i] : PreparedSphere::Gaussian{point.ng, 1, 0};
+        const PreparedSphere::Gaussian g = i < lobes.gaussianCount
+                                               ? lobes.gaussians[i]
+                                               : PreparedSphere::Gaussian{point.ng, 1, 0};
         found[i].axis.set(static_cast<int>(lane), g.axis);
         found[i].sharpness[lane] = g.sharpness;
         found[i].amplitude[lane] = g.amplitude;
-        if (i < count) sampling.sharpest[lane] = std::max(sampling.sharpest[lane], g.sharpness);
       }
-      most = std::max(most, count);
+      most = std::max(most, lobes.gaussianCount);
+      if (lobes.halfLobe >= 0) ++votes[lobes.halfLobe];
       setRandom(point, lane, &sampling);
     }
+    const int* chosen = std::max_element(votes, votes + kMaxLobes);
+    sampling.halfLobe = *chosen > 0 ? static_cast<int>(chosen - votes) : -1;
     strip.firstGaussian = tile->gaussians.size();
     strip.gaussianCount = static_cast<size_t>(most);
     tile->gaussians.insert(tile->gaussians.end(), found, found + most);
