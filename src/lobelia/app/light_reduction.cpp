@@ -56,9 +56,9 @@ gather::Rows traceRows(const Tracer& tracer, const EmitterSampler& emitters, con
   eye.sample = firstSample(plan, set);
   eye.pixels = chosen.pixels;
   eye.directSamples = 0;
-  return makeRows(
-      chosen,
-      traceReceivers(tracer, emitters, camera, eye, 0, shape.height, shape, context), shape.width);
+  return makeRows(chosen,
+                  traceReceivers(tracer, emitters, camera, eye, 0, shape.height, shape, context),
+                  shape.width);
 }
 
 }  // namespace
@@ -78,15 +78,14 @@ void requireReduction(const RenderOptions& options) {
     }
   }
   if (reduces(options)) return;
-  for (const auto& [name, given] : {std::pair{"--rows", options.rows > 0},
-                                    std::pair{"--columns", options.columns > 0},
-                                    std::pair{"--sketch", !options.sketch.empty()},
-                                    std::pair{"--column-scale", options.columnScale != "scalar"},
-                                    std::pair{"--error", options.error > 0}}) {
+  for (const auto& [name, given] :
+       {std::pair{"--rows", options.rows > 0}, std::pair{"--columns", options.columns > 0},
+        std::pair{"--sketch", !options.sketch.empty()},
+        std::pair{"--column-scale", options.columnScale != "scalar"},
+        std::pair{"--error", options.error > 0}}) {
     if (given)
-      throw UsageError(
-          fmt::format("{} is for --gather mrcs; --gather {} has no use for it", name,
-                      options.gather));
+      throw UsageError(fmt::format("{} is for --gather mrcs; --gather {} has no use for it", name,
+                                   options.gather));
   }
 }
 
@@ -102,8 +101,8 @@ LightParts reduceParts(const Tracer& tracer, const EmitterSampler& emitters, con
   MrcsSettings settings = settingsFor(options, plan);
   const uint64_t seed = hashCombine(hashCombine(context.seed, kStream), static_cast<uint64_t>(set));
   const gather::Rows rows =
-      traceRows(tracer, emitters, camera, plan, set,
-                options.rows > 0 ? options.rows : kDefaultRows, seed, context);
+      traceRows(tracer, emitters, camera, plan, set, options.rows > 0 ? options.rows : kDefaultRows,
+                seed, context);
   ++report->sets;
   VirtualLights* const lights[] = {&parts.direct, &parts.indirect};
   for (const int part : {0, 1}) {

@@ -24,7 +24,8 @@ const std::vector<LightModel>& lightModels() {
 const std::vector<GatherStrategy>& gatherStrategies() {
   static const std::vector<GatherStrategy> strategies{
       {"all", "every light at every receiver (brute force, the reference of all strategies)"},
-      {"mrcs", "matrix row-column sampling: few lights stand for all, chosen by a sample of pixels"},
+      {"mrcs",
+       "matrix row-column sampling: few lights stand for all, chosen by a sample of pixels"},
   };
   return strategies;
 }

@@ -51,7 +51,8 @@ CLI::Validator byteCount() {
                                         : std::string_view::npos;
         const uint64_t factor = unit < kUnits.size() ? uint64_t{1024} << (10 * unit) : 1;
         if (factor > 1) ++next;
-        if (error != std::errc() || next != end || value == 0 || value > (uint64_t{1} << 50) / factor)
+        if (error != std::errc() || next != end || value == 0 ||
+            value > (uint64_t{1} << 50) / factor)
           return fmt::format("'{}' is not a number of bytes, as in 800M or 2G", text);
         text = std::to_string(value * factor);
         return std::string();

@@ -18,8 +18,8 @@ class VirtualLightRender {
  public:
   VirtualLightRender(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                      const PixelSet& pixels, int maxDepth, const RenderOptions& options, Film& film,
-                     Checkpoints* checkpoints, FilmPreview* preview, std::optional<VirtualLights>* firstSet,
-                     Context& context)
+                     Checkpoints* checkpoints, FilmPreview* preview,
+                     std::optional<VirtualLights>* firstSet, Context& context)
       : tracer_(tracer),
         emitters_(emitters),
         camera_(camera),
@@ -34,8 +34,8 @@ class VirtualLightRender {
                                : obtainLights(tracer, emitters, maxDepth, 0, options, context);
     if (firstSet != nullptr && !*firstSet) *firstSet = lights;
     report_.lights = countLights(lights);
-    plan_ = planBands(tracer, pixels, maxDepth, gatheredLights(lights.size(), options), options,
-                      film);
+    plan_ =
+        planBands(tracer, pixels, maxDepth, gatheredLights(lights.size(), options), options, film);
     first_ = splitLights(std::move(lights));
     report_.sets = plan_.sets;
     rowSamples_.assign(static_cast<size_t>(film.height), 0);
@@ -72,10 +72,10 @@ class VirtualLightRender {
 
   void useLights(int set) {
     if (set == ready_) return;
-    LightParts parts = set == 0 && first_
-                           ? std::move(*first_)
-                           : splitLights(obtainLights(tracer_, emitters_, maxDepth_, set, options_,
-                                                      context_));
+    LightParts parts =
+        set == 0 && first_
+            ? std::move(*first_)
+            : splitLights(obtainLights(tracer_, emitters_, maxDepth_, set, options_, context_));
     first_.reset();
     if (context_.cancelled()) return;
     parts = reduceParts(tracer_, emitters_, camera_, plan_, set, std::move(parts), options_,
@@ -264,8 +264,8 @@ class VirtualLightRender {
   Context& context_;
   const int64_t start_ = nanosecondsNow();
 
-  int set_ = 0;     // used last
-  int ready_ = -1;  // whose lights parts_ holds
+  int set_ = 0;                      // used last
+  int ready_ = -1;                   // whose lights parts_ holds
   std::optional<LightParts> first_;  // the first set until it is used
   LightParts parts_;
   BandPlan plan_;

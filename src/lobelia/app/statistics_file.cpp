@@ -23,8 +23,8 @@ double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
 Json secondsJson(const Statistics& statistics) {
   Json out;
-  for (const char* stage : {"load", "accel", "receivers", "lights", "trees", "traverse",
-                            "rows", "cluster", "visibility", "shade", "trace", "total"}) {
+  for (const char* stage : {"load", "accel", "receivers", "lights", "trees", "traverse", "rows",
+                            "cluster", "visibility", "shade", "trace", "total"}) {
     out[stage] = statistics.seconds(stage);
   }
   return out;
@@ -89,8 +89,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"nonfinite", s.count("nonfinite") + countNonFinite(film)}};
   json["memory"] = {{"peak_bytes", peakBytes()},
                     {"embree_bytes", s.value("embree_bytes")},
-                    {"bytes_per_light", ratio(static_cast<double>(lights.bytes),
-                                              static_cast<double>(lights.total))},
+                    {"bytes_per_light",
+                     ratio(static_cast<double>(lights.bytes), static_cast<double>(lights.total))},
                     {"bytes_per_receiver", ratio(receiverBytes, receivers)}};
   const std::string text = json.dump(2) + "\n";
   writeFileAtomically(file, std::as_bytes(std::span<const char>(text)));

@@ -36,12 +36,14 @@ struct TileSums {
   uint64_t pairs = 0, nonfinite = 0;
 };
 
-// Values of pairs of a tile and a block, [light][strip][lane] as PairMasks; 0 where a pair is not lit.
+// Values of pairs of a tile and a block, [light][strip][lane] as PairMasks; 0 where a pair is not
+// lit.
 struct PairValues {
   AlignedFloats x, y, z;
   uint64_t pairs = 0, nonfinite = 0;
   void reset(size_t lightCount, size_t stripCount) {
-    for (AlignedFloats* values : {&x, &y, &z}) values->assign(lightCount * stripCount * kStrip, 0.f);
+    for (AlignedFloats* values : {&x, &y, &z})
+      values->assign(lightCount * stripCount * kStrip, 0.f);
   }
 };
 

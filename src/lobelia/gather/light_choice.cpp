@@ -5,7 +5,9 @@
 namespace lobelia::gather {
 namespace {
 
-size_t blocksOf(const LightRange& range) { return (range.size() + kBlockLights - 1) / kBlockLights; }
+size_t blocksOf(const LightRange& range) {
+  return (range.size() + kBlockLights - 1) / kBlockLights;
+}
 
 template <class Light>
 void take(const std::vector<Light>& from, const std::vector<uint16_t>* groups, Rgb Light::*power,

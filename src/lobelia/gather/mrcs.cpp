@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lobelia/base/error.h"
 #include "lobelia/base/random.h"
@@ -40,18 +41,20 @@ size_t chooseDims(const Rows& rows, size_t lights, const MrcsSettings& settings)
       dims > kFewestDims || dims == 0 ? ", or choose a smaller --sketch" : ", or fewer lights"));
 }
 
-// Sum of lengths over the light's; where it has none, the scale by weights.
-Rgb scaleByChannel(const LightColumns& columns, std::span<const uint32_t> lights, size_t light,
-                   float scale) {
-  Vec3d sum;
-  for (const uint32_t i : lights)
-    sum += Vec3d{double{columns.channels[i].x}, double{columns.channels[i].y},
-                 double{columns.channels[i].z}};
-  const Rgb own = columns.channels[light];
-  const auto ratio = [&](double total, float part) {
-    return part > 0 ? static_cast<float>(total / double{part}) : scale;
+// Sum of lengths over the light's, channel by channel; each has a third of the unseen part.
+Rgb scaleByChannel(const LightColumns& columns, std::span<const uint32_t> lights, size_t light) {
+  const auto length = [&](size_t i, int c) {
+    const double seen = double{columns.channels[i][c]};
+    return std::sqrt(seen * seen + columns.unseen / 3);
   };
-  return {ratio(sum.x, own.x), ratio(sum.y, own.y), ratio(sum.z, own.z)};
+  Rgb scale;
+  for (int c = 0; c < 3; ++c) {
+    double sum = 0;
+    for (const uint32_t i : lights) sum += length(i, c);
+    const double own = length(light, c);
+    scale[c] = own > 0 ? static_cast<float>(sum / own) : 1.f;
+  }
+  return scale;
 }
 
 }  // namespace
@@ -61,8 +64,8 @@ std::vector<Representative> drawRepresentatives(const LightColumns& columns,
   std::vector<Representative> out;
   for (size_t k = 0; k < clustering.clusters.size(); ++k) {
     const LightCluster& cluster = clustering.clusters[k];
-    const auto lights = std::span<const uint32_t>(clustering.order).subspan(cluster.begin,
-                                                                            cluster.size());
+    const auto lights =
+        std::span<const uint32_t>(clustering.order).subspan(cluster.begin, cluster.size());
     double left = uniformNumber(seed, k) * cluster.weight;
     uint32_t light = lights.back();
     for (const uint32_t i : lights) {
@@ -75,9 +78,8 @@ std::vector<Representative> drawRepresentatives(const LightColumns& columns,
       continue;
     }
     const auto scale = static_cast<float>(cluster.weight / double{columns.weight[light]});
-    out.push_back({light, columns.channels.empty()
-                              ? Rgb(scale)
-                              : scaleByChannel(columns, lights, light, scale)});
+    out.push_back(
+        {light, columns.channels.empty() ? Rgb(scale) : scaleByChannel(columns, lights, light)});
   }
   std::sort(out.begin(), out.end(),
             [](const Representative& a, const Representative& b) { return a.light < b.light; });

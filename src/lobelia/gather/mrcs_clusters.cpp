@@ -79,14 +79,14 @@ Clustering clusterLights(const LightColumns& columns, const ClusterSettings& set
     return bothPhases(columns, most, most, settings, settings.seed, context);
   for (size_t attempt = 0, count = std::min(kFirstClusters, most);; ++attempt) {
     const size_t limit = std::min(count * kMostGrowth, most);
-    Clustering clustering = bothPhases(columns, count, limit, settings,
-                                       hashCombine(settings.seed, attempt), context);
+    Clustering clustering =
+        bothPhases(columns, count, limit, settings, hashCombine(settings.seed, attempt), context);
     const double error = clustering.checkError(columns);
     if (error <= settings.errorLimit || limit == most || context.cancelled()) return clustering;
     // The cost falls about as one over the number of clusters.
     const double wanted = static_cast<double>(limit) * std::pow(error / settings.errorLimit, 2);
-    count = static_cast<size_t>(std::min(std::min(wanted, 4.0 * static_cast<double>(limit)),
-                                         static_cast<double>(most)));
+    count = static_cast<size_t>(
+        std::min(std::min(wanted, 4.0 * static_cast<double>(limit)), static_cast<double>(most)));
   }
 }
 

@@ -34,8 +34,8 @@ double squaredLength(const float* v, size_t count) {
 }
 
 struct Share {
-  std::vector<double> total;   // sum of the columns
-  double hardlySeen = 0;       // sum of squares of the columns that at most one row sees
+  std::vector<double> total;  // sum of the columns
+  double hardlySeen = 0;      // sum of squares of the columns that at most one row sees
   size_t hardlySeenCount = 0;
   float least = 3e38f;  // length of a column
   uint64_t rays = 0, pairs = 0, nonfinite = 0;
@@ -138,10 +138,10 @@ class Maker {
     for (size_t r = 0; r < values_; ++r) share->total[r] += double{column[r]};
     const double squared = squaredLength(column, rowValues_);
     const double all = squared + squaredLength(column + rowValues_, values_ - rowValues_);
-    if (seen <= 1)
-      share->hardlySeen += squared, ++share->hardlySeenCount;
+    if (seen <= 1) share->hardlySeen += squared, ++share->hardlySeenCount;
     out_.weight[number] = static_cast<float>(std::sqrt(squared));
-    if (out_.weight[number] >= kLeastLength) share->least = std::min(share->least, out_.weight[number]);
+    if (out_.weight[number] >= kLeastLength)
+      share->least = std::min(share->least, out_.weight[number]);
     out_.scale[number] = static_cast<float>(std::sqrt(all));
     if (settings_.channels) out_.channels[number] = channelLengths(column);
     if (out_.scale[number] < kLeastLength) {  // its reciprocal is not finite, or nearly so

@@ -31,13 +31,13 @@ inline constexpr size_t kCheckDims = 16;  // of sketches of the check rows
 
 struct LightColumns {
   size_t count = 0;
-  size_t dims = 0, checkDims = 0;    // of the part that rows give and of that from check rows
-  std::vector<uint16_t> halves;      // sketches, [light][dims + checkDims]
-  AlignedFloats whole;               // or whole columns
-  std::vector<float> scale, weight;  // of each light
-  double unseen = 0;                 // u^2
+  size_t dims = 0, checkDims = 0;     // of the part that rows give and of that from check rows
+  std::vector<uint16_t> halves;       // sketches, [light][dims + checkDims]
+  AlignedFloats whole;                // or whole columns
+  std::vector<float> scale, weight;   // of each light
+  double unseen = 0;                  // u^2
   double rowNorm = 0, checkNorm = 0;  // |sum of all columns| in the rows, in the check rows
-  std::vector<Rgb> channels;         // |column| per channel
+  std::vector<Rgb> channels;          // |column| per channel
 
   size_t stride() const { return dims + checkDims; }
   size_t bytes() const;

@@ -104,8 +104,7 @@ uint32_t bestOf(const Best& best) {
   size_t found = 0;
   for (size_t k = 1; k < kLanes; ++k) {
     const bool less = best.score[k] < best.score[found];
-    const bool earlier =
-        best.score[k] == best.score[found] && best.centre[k] < best.centre[found];
+    const bool earlier = best.score[k] == best.score[found] && best.centre[k] < best.centre[found];
     if (less || earlier) found = k;
   }
   return static_cast<uint32_t>(best.centre[found]);
@@ -113,8 +112,8 @@ uint32_t bestOf(const Best& best) {
 
 void nearestCentres(const float* vectors, const float* squaredLengths, size_t count,
                     const g::CentreTable& centres, uint32_t* best) {
-  constexpr size_t kLights = 16 * kAtOnce;             // their vectors stay in the first cache
-  constexpr size_t kTableFloats = 16384;               // and so do these of centres in the second
+  constexpr size_t kLights = 16 * kAtOnce;  // their vectors stay in the first cache
+  constexpr size_t kTableFloats = 16384;    // and so do these of centres in the second
   const size_t groups = std::max<size_t>(kTableFloats / (centres.dims * g::kMrcsLanes), 1);
   Best found[kLights];
   for (size_t begin = 0; begin < count; begin += kLights) {

@@ -77,8 +77,8 @@ Rows makeRows(const RowPixels& chosen, Receivers receivers, int width) {
                    });
   for (const ReceiverPoint& point : rows.receivers.points) {
     const auto& pixels = chosen.pixels.pixels;
-    const auto i = static_cast<size_t>(
-        std::lower_bound(pixels.begin(), pixels.end(), point.pixel) - pixels.begin());
+    const auto i = static_cast<size_t>(std::lower_bound(pixels.begin(), pixels.end(), point.pixel) -
+                                       pixels.begin());
     rows.row.push_back(chosen.row.at(i));
     rows.check.push_back(chosen.check.at(i));
   }

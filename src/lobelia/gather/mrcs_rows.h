@@ -14,8 +14,8 @@ namespace lobelia::gather {
 
 struct RowPixels {
   static constexpr uint32_t kNone = 0xffffffffu;
-  PixelSet pixels;                     // of rows and checks
-  std::vector<uint32_t> row, check;    // of each pixel its number among them, or kNone
+  PixelSet pixels;                   // of rows and checks
+  std::vector<uint32_t> row, check;  // of each pixel its number among them, or kNone
   size_t rowCount = 0, checkCount = 0;
 };
 

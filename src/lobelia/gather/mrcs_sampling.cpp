@@ -132,8 +132,7 @@ std::vector<uint32_t> assign(const LightColumns& columns, const std::vector<Cent
     nearestCentres(vectors.data(), squares, end - begin, table, &nearest[begin]);
   });
   // A centre's distance to itself is 0, unseen part included.
-  for (size_t k = 0; k < centres.size(); ++k)
-    nearest[centres[k].light] = static_cast<uint32_t>(k);
+  for (size_t k = 0; k < centres.size(); ++k) nearest[centres[k].light] = static_cast<uint32_t>(k);
   return nearest;
 }
 
@@ -157,8 +156,8 @@ Clustering sampleClusters(const LightColumns& columns, size_t count, uint64_t se
   parallelFor(result.clusters.size(), 1, [&](size_t k) {
     LightCluster& cluster = result.clusters[k];
     const size_t begin = cluster.begin, end = cluster.end;
-    cluster = measureCluster(
-        columns, std::span<const uint32_t>(result.order).subspan(begin, end - begin));
+    cluster = measureCluster(columns,
+                             std::span<const uint32_t>(result.order).subspan(begin, end - begin));
     cluster.begin = begin, cluster.end = end;
   });
   for (const LightCluster& cluster : result.clusters) {

@@ -172,8 +172,7 @@ void splitClusters(const LightColumns& columns, size_t count, double errorLimit,
       push(chosen[i]);
       push(clusters.size() - 1);
     }
-    context.progress("cluster",
-                     static_cast<double>(clusters.size()) / static_cast<double>(count));
+    context.progress("cluster", static_cast<double>(clusters.size()) / static_cast<double>(count));
   }
 }
 

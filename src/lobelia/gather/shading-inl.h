@@ -1,7 +1,7 @@
 // Light of visible pairs at a strip of 16 receiver points, in three steps over the block's lights:
 // directions and light factors; the lobes, one after the other with their kinds as compile-time
-// constants where that pays; sums, or the values of pairs one by one. Lanes that are not visible are computed and dropped: points stay
-// in their registers, nothing is gathered.
+// constants where that pays; sums, or the values of pairs one by one. Lanes that are not visible
+// are computed and dropped: points stay in their registers, nothing is gathered.
 #if defined(LOBELIA_GATHER_SHADING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_GATHER_SHADING_INL_H_
 #undef LOBELIA_GATHER_SHADING_INL_H_
