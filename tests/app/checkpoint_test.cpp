@@ -98,6 +98,10 @@ TEST_P(Checkpoint, KilledRendersEndAsIfNothingHadHappened) {
     return nlohmann::json::parse(test::readText(folder / file))["counts"];
   };
   EXPECT_EQ(counts("cut.json"), counts("whole.json"));
+  const auto gathered = [&](const char* file) {
+    return nlohmann::json::parse(test::readText(folder / file))["gather"];
+  };
+  EXPECT_EQ(gathered("cut.json"), gathered("whole.json"));
 }
 
 TEST_P(Checkpoint, TimeLimitedRendersGoOn) {
@@ -127,6 +131,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"glossy",
                            "--size 48x40 --spp 8 --num-lights 600 "
                            "--aov direct,indirect,specular,variance,groups,types,cost"},
+                    Method{"mrcs",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather mrcs "
+                           "--columns 120 --rows 100 --aov direct,indirect,variance,cost"},
                     Method{"pixels",
                            "--lights vpl --size 64x64 --pixels 500 --spp 8 "
                            "--num-lights 500 --passes 2 --direct lights"}),

@@ -107,6 +107,14 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
   s.emplace_back("--aov", o.aovs);
   if (!virtualLights) return identity;
   s.emplace_back("--gather", o.gather);
+  if (o.gather == "mrcs") {
+    s.emplace_back("--rows", std::to_string(o.rows));
+    s.emplace_back("--columns", std::to_string(o.columns));
+    s.emplace_back("--error", fmt::format("{}", o.error));
+    s.emplace_back("--sketch", o.sketch);
+    s.emplace_back("--column-scale", o.columnScale);
+    s.emplace_back("--memory", std::to_string(o.memory));
+  }
   s.emplace_back("--num-lights", std::to_string(o.lightCount));
   s.emplace_back("--env-lights", std::to_string(o.environmentLights));
   s.emplace_back("--passes", std::to_string(o.passes));

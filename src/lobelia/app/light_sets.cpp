@@ -8,42 +8,61 @@
 namespace lobelia::app {
 namespace {
 
+// Moves all but the first n, which are copied; a set may fill most of the memory.
 template <class Light>
-void splitByDepth(const std::vector<Light>& lights, const std::vector<uint32_t>& ends,
-                  std::vector<Light>& direct, std::vector<uint32_t>& directEnds,
-                  std::vector<Light>& indirect, std::vector<uint32_t>& indirectEnds) {
-  const uint32_t n = ends.empty() ? 0 : ends.front();
-  direct.assign(lights.begin(), lights.begin() + n);
-  indirect.assign(lights.begin() + n, lights.end());
-  directEnds.assign(ends.empty() ? 0 : 1, n);
-  indirectEnds = ends;
-  for (uint32_t& end : indirectEnds) end -= n;
+void splitAt(size_t n, std::vector<Light>& lights, std::vector<Light>& first,
+             std::vector<Light>& rest) {
+  const auto at = lights.begin() + static_cast<ptrdiff_t>(std::min(n, lights.size()));
+  first.assign(lights.begin(), at);
+  lights.erase(lights.begin(), at);
+  rest = std::move(lights);
+}
+
+size_t emitterLights(const std::vector<uint32_t>& ends) { return ends.empty() ? 0 : ends.front(); }
+
+void splitEnds(const std::vector<uint32_t>& ends, std::vector<uint32_t>& first,
+               std::vector<uint32_t>& rest) {
+  const uint32_t n = static_cast<uint32_t>(emitterLights(ends));
+  first.assign(ends.empty() ? 0 : 1, n);
+  rest = ends;
+  for (uint32_t& end : rest) end -= n;
 }
 
 }  // namespace
 
-LightParts splitLights(const VirtualLights& lights) {
+LightCounts countLights(const VirtualLights& lights) {
+  LightCounts counts;
+  for (const gather::LightClass lightClass : gather::kLightClasses)
+    counts.byClass[static_cast<size_t>(lightClass)] = gather::lightCount(lights, lightClass);
+  counts.total = lights.size();
+  counts.bytes = lights.omni.size() * sizeof(OmniLight) +
+                 lights.directional.size() * sizeof(DirectionalLight) +
+                 lights.diffuse.size() * sizeof(DiffuseLight) +
+                 lights.glossy.size() * sizeof(GlossyLight) +
+                 lights.spherical.size() * sizeof(SphericalLight);
+  counts.particles = lights.particles;
+  return counts;
+}
+
+LightParts splitLights(VirtualLights lights) {
   LightParts parts;
-  parts.direct.omni = lights.omni;
-  parts.direct.directional = lights.directional;
-  splitByDepth(lights.diffuse, lights.diffuseDepthEnds, parts.direct.diffuse,
-               parts.direct.diffuseDepthEnds, parts.indirect.diffuse,
-               parts.indirect.diffuseDepthEnds);
-  splitByDepth(lights.glossy, lights.glossyDepthEnds, parts.direct.glossy,
-               parts.direct.glossyDepthEnds, parts.indirect.glossy, parts.indirect.glossyDepthEnds);
-  splitByDepth(lights.spherical, lights.sphericalDepthEnds, parts.direct.spherical,
-               parts.direct.sphericalDepthEnds, parts.indirect.spherical,
-               parts.indirect.sphericalDepthEnds);
-  parts.direct.sphereShading = parts.indirect.sphereShading = lights.sphereShading;
-  parts.direct.specularLimit = parts.indirect.specularLimit = lights.specularLimit;
-  parts.direct.groups = parts.indirect.groups = lights.groups;
-  parts.direct.omniGroups = lights.omniGroups;
-  parts.direct.directionalGroups = lights.directionalGroups;
-  if (!lights.glossyGroups.empty()) {
-    std::vector<uint32_t> ends;
-    splitByDepth(lights.glossyGroups, lights.glossyDepthEnds, parts.direct.glossyGroups, ends,
-                 parts.indirect.glossyGroups, ends);
-  }
+  VirtualLights &direct = parts.direct, &indirect = parts.indirect;
+  direct.omni = std::move(lights.omni);
+  direct.directional = std::move(lights.directional);
+  direct.omniGroups = std::move(lights.omniGroups);
+  direct.directionalGroups = std::move(lights.directionalGroups);
+  splitAt(emitterLights(lights.diffuseDepthEnds), lights.diffuse, direct.diffuse, indirect.diffuse);
+  splitAt(emitterLights(lights.glossyDepthEnds), lights.glossy, direct.glossy, indirect.glossy);
+  splitAt(emitterLights(lights.glossyDepthEnds), lights.glossyGroups, direct.glossyGroups,
+          indirect.glossyGroups);
+  splitEnds(lights.diffuseDepthEnds, direct.diffuseDepthEnds, indirect.diffuseDepthEnds);
+  splitEnds(lights.glossyDepthEnds, direct.glossyDepthEnds, indirect.glossyDepthEnds);
+  splitAt(emitterLights(lights.sphericalDepthEnds), lights.spherical, direct.spherical,
+          indirect.spherical);
+  splitEnds(lights.sphericalDepthEnds, direct.sphericalDepthEnds, indirect.sphericalDepthEnds);
+  direct.sphereShading = indirect.sphereShading = lights.sphereShading;
+  direct.specularLimit = indirect.specularLimit = lights.specularLimit;
+  direct.groups = indirect.groups = std::move(lights.groups);
   return parts;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lobelia/app/render_options.h"
+#include "lobelia/gather/light_block.h"
 #include "lobelia/lights/light_pass.h"
 
 namespace lobelia::app {
@@ -14,9 +15,16 @@ struct LightParts {
   size_t size() const { return direct.size() + indirect.size(); }
 };
 
+// What statistics say about a set.
+struct LightCounts {
+  uint64_t byClass[std::size(gather::kLightClasses)] = {};
+  uint64_t total = 0, bytes = 0, particles = 0;
+};
+LightCounts countLights(const VirtualLights& lights);
+
 VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
                            int set, const RenderOptions& options, Context& context);
-LightParts splitLights(const VirtualLights& lights);
+LightParts splitLights(VirtualLights lights);
 // How many sets the samples of a pixel share, and which of them a sample gathers.
 int lightSetCount(const RenderOptions& options, int sampleCount);
 int lightSetOf(int sample, int sampleCount, int setCount);

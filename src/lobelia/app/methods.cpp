@@ -15,9 +15,11 @@ const std::vector<LightModel>& lightModels() {
        "reference path tracing: next-event estimation and BSDF sampling, no virtual lights",
        {}},
       {"light", "light tracing: particles connected to the camera (a check; blind to mirrors)", {}},
-      {"vpl", "diffuse virtual point lights only, clamped by default", {"all"}},
-      {"glossy", "diffuse and spherical-Gaussian lights", {"all"}},
-      {"vsl", "virtual spherical lights: any material at both ends, no spikes, no clamp", {"all"}},
+      {"vpl", "diffuse virtual point lights only, clamped by default", {"all", "mrcs"}},
+      {"glossy", "diffuse and spherical-Gaussian lights", {"all", "mrcs"}},
+      {"vsl",
+       "virtual spherical lights: any material at both ends, no spikes, no clamp",
+       {"all", "mrcs"}},
   };
   return models;
 }
@@ -25,6 +27,8 @@ const std::vector<LightModel>& lightModels() {
 const std::vector<GatherStrategy>& gatherStrategies() {
   static const std::vector<GatherStrategy> strategies{
       {"all", "every light at every receiver (brute force, the reference of all strategies)"},
+      {"mrcs",
+       "matrix row-column sampling: few lights stand for all, chosen by a sample of pixels"},
   };
   return strategies;
 }

@@ -40,6 +40,26 @@ CLI::Validator integerRange(int64_t least, int64_t most) {
   return CLI::Range(least, most).description("");
 }
 
+CLI::Validator byteCount() {
+  return CLI::Validator(
+      [](std::string& text) {
+        uint64_t value = 0;
+        const char* end = text.data() + text.size();
+        auto [next, error] = std::from_chars(text.data(), end, value);
+        constexpr std::string_view kUnits = "KMG";
+        const size_t unit = next != end ? kUnits.find(static_cast<char>(std::toupper(*next)))
+                                        : std::string_view::npos;
+        const uint64_t factor = unit < kUnits.size() ? uint64_t{1024} << (10 * unit) : 1;
+        if (factor > 1) ++next;
+        if (error != std::errc() || next != end || value == 0 ||
+            value > (uint64_t{1} << 50) / factor)
+          return fmt::format("'{}' is not a number of bytes, as in 800M or 2G", text);
+        text = std::to_string(value * factor);
+        return std::string();
+      },
+      "");
+}
+
 CLI::Validator offered(const std::vector<std::string>& values) {
   return CLI::Validator([](const std::string&) { return std::string(); },
                         fmt::format("{{{}}}", fmt::join(values, ",")));

@@ -19,6 +19,8 @@ CLI::Validator finiteNumber(double least, double most = HUGE_VAL, bool leastIncl
 CLI::Validator seedNumber();
 // CLI::Range without the limits in --help, where they say little.
 CLI::Validator integerRange(int64_t least, int64_t most);
+// Turns bytes, or K, M, G of them ("512M"; 1024 to the next), into a plain number of bytes.
+CLI::Validator byteCount();
 // Makes a closed set known to --help, completion and documents. It accepts everything: the command
 // itself refuses what is not in the set, with a better message than CLI11's.
 CLI::Validator offered(const std::vector<std::string>& values);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lobelia/app/light_layers.h"
+#include "lobelia/app/light_reduction.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/render_frame.h"
@@ -66,6 +67,7 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
   requireMethod(options.lights, options.gather);
   requireLightFiles(options);
   requireLightLayers(options);
+  requireReduction(options);
   requireFrames(options);
   requireReplay(options);
   if (!options.display.empty()) parseViewerAddress(options.display);

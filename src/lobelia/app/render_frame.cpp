@@ -82,8 +82,7 @@ void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& cont
     markPixels(film, pixels);
     report = renderVirtualLights(run.tracer, run.emitters, camera, pixels, maxDepth, options, film,
                                  context, checkpoints.get(), run.display,
-                                 run.lights ? &*run.lights : nullptr);
-    if (options.frames > 1 && !run.lights) run.lights = report.lights;
+                                 options.frames > 1 ? &run.lights : nullptr);
   }
   composePicture(film, options);
   const int64_t end = nanosecondsNow();

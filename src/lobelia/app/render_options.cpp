@@ -115,6 +115,33 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "per sample (one set with --save-lights, --load-lights)")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 24));
+  c.add_option("--rows", o.rows,
+               "--gather mrcs: pixels at which all lights are computed; default: 1024")
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 20));
+  c.add_option("--columns", o.columns,
+               "--gather mrcs: lights per set that stand for all, with --error at most; default: "
+               "by an error of 0.02, at most 16384")
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 31));
+  c.add_option("--error", o.error,
+               "--gather mrcs: relative error aimed at in the gathered light, 0.01 = 1 %")
+      ->type_name("R")
+      ->check(finiteNumber(0, 1, false));
+  c.add_option("--sketch", o.sketch,
+               "--gather mrcs: numbers kept of a light's rows, or off: all of them; default: 64 "
+               "where all take more than 64 MiB")
+      ->type_name("N");
+  c.add_option("--column-scale", o.columnScale,
+               "--gather mrcs: a light that stands for others is scaled as a whole (scalar) or "
+               "channel by channel, which is biased")
+      ->type_name("HOW")
+      ->check(CLI::IsMember({"scalar", "channel"}))
+      ->capture_default_str();
+  c.add_option("--memory", o.memory,
+               "--gather mrcs: memory for what is kept of all lights; units K, M, G")
+      ->type_name("BYTES")
+      ->transform(byteCount());
   c.add_option("--env-lights", o.environmentLights,
                "With --direct lights: directional lights per environment")
       ->type_name("N")

@@ -35,6 +35,11 @@ struct RenderOptions {
   int passes = 0;    // independent light sets; 0: one per sample, unless lights are saved or loaded
   int maxDepth = 0;  // 0: the scene's
   uint64_t lightCount = 512, environmentLights = 1024;
+  size_t rows = 0, columns = 0;  // of --gather mrcs; 0: the method's default
+  double error = 0;              // relative error aimed at; 0: the method's default
+  std::string sketch;            // numbers kept of each column, "off"; "": the method's default
+  std::string columnScale = "scalar";
+  uint64_t memory = uint64_t{2} << 30;  // bytes for columns
   std::string direct = "nee";
   float radius = 0;  // of spherical lights, over the tenth neighbour's distance; 0: automatic
   std::string sphereIndicator = "planar", sphereSampling = "product";

@@ -18,8 +18,8 @@ class VirtualLightRender {
  public:
   VirtualLightRender(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                      const PixelSet& pixels, int maxDepth, const RenderOptions& options, Film& film,
-                     Checkpoints* checkpoints, FilmPreview* preview, const VirtualLights* firstSet,
-                     Context& context)
+                     Checkpoints* checkpoints, FilmPreview* preview,
+                     std::optional<VirtualLights>* firstSet, Context& context)
       : tracer_(tracer),
         emitters_(emitters),
         camera_(camera),
@@ -29,10 +29,14 @@ class VirtualLightRender {
         checkpoints_(checkpoints),
         preview_(preview),
         context_(context) {
-    report_.lights =
-        firstSet ? *firstSet : obtainLights(tracer, emitters, maxDepth, 0, options, context);
-    parts_ = splitLights(report_.lights);
-    plan_ = planBands(tracer, pixels, maxDepth, report_.lights.size(), options, film);
+    VirtualLights lights = firstSet != nullptr && *firstSet
+                               ? **firstSet
+                               : obtainLights(tracer, emitters, maxDepth, 0, options, context);
+    if (firstSet != nullptr && !*firstSet) *firstSet = lights;
+    report_.lights = countLights(lights);
+    plan_ =
+        planBands(tracer, pixels, maxDepth, gatheredLights(lights.size(), options), options, film);
+    first_ = splitLights(std::move(lights));
     report_.sets = plan_.sets;
     rowSamples_.assign(static_cast<size_t>(film.height), 0);
     variance_.emplace(film);
@@ -67,10 +71,18 @@ class VirtualLightRender {
   }
 
   void useLights(int set) {
-    if (set == set_) return;
-    parts_ = splitLights(obtainLights(tracer_, emitters_, maxDepth_, set, options_, context_));
+    if (set == ready_) return;
+    LightParts parts =
+        set == 0 && first_
+            ? std::move(*first_)
+            : splitLights(obtainLights(tracer_, emitters_, maxDepth_, set, options_, context_));
+    first_.reset();
     if (context_.cancelled()) return;
-    set_ = set;
+    parts = reduceParts(tracer_, emitters_, camera_, plan_, set, std::move(parts), options_,
+                        &report_.reduction, context_);
+    if (context_.cancelled()) return;
+    parts_ = std::move(parts);
+    set_ = ready_ = set;
     markCounts();
   }
 
@@ -171,6 +183,7 @@ class VirtualLightRender {
     StateFields fields;
     fields.addValue("position", at_);
     fields.addValue("light-set", set_);
+    fields.addValue("reduction", report_.reduction);
     fields.add("row-samples", rowSamples_);
     fields.addValue("diffuse-receivers", report_.diffuseReceivers);
     fields.addValue("glossy-receivers", report_.glossyReceivers);
@@ -196,7 +209,9 @@ class VirtualLightRender {
   void resume() {
     if (checkpoints_ && checkpoints_->load(kStage, state())) {
       requirePosition();
-      useLights(std::exchange(set_, 0));
+      const ReductionReport reduction = report_.reduction;  // has the set that is made again
+      if (set_ == plan_.set(at_.sample)) useLights(set_);
+      report_.reduction = reduction;
       if (at_.traced != 0) resumed_ = traceAgain();
       checkpoints_->restoreCounts();
     }
@@ -249,7 +264,9 @@ class VirtualLightRender {
   Context& context_;
   const int64_t start_ = nanosecondsNow();
 
-  int set_ = 0;
+  int set_ = 0;                      // used last
+  int ready_ = -1;                   // whose lights parts_ holds
+  std::optional<LightParts> first_;  // the first set until it is used
   LightParts parts_;
   BandPlan plan_;
   Position at_;
@@ -267,7 +284,7 @@ VirtualLightReport renderVirtualLights(const Tracer& tracer, const EmitterSample
                                        const Camera& camera, const PixelSet& pixels, int maxDepth,
                                        const RenderOptions& options, Film& film, Context& context,
                                        Checkpoints* checkpoints, FilmPreview* preview,
-                                       const VirtualLights* firstSet) {
+                                       std::optional<VirtualLights>* firstSet) {
   return VirtualLightRender(tracer, emitters, camera, pixels, maxDepth, options, film, checkpoints,
                             preview, firstSet, context)
       .run();

@@ -4,6 +4,7 @@
 
 #include "lobelia/app/band_plan.h"
 #include "lobelia/app/frame_setup.h"
+#include "lobelia/app/light_reduction.h"
 #include "lobelia/app/replay_text.h"
 #include "lobelia/app/sampled_film.h"
 
@@ -48,12 +49,15 @@ class LightReplay {
 
   int run() {
     const PixelSet pixels = choosePixels(camera_, options_);
-    useLights(0);
-    plan_ = planBands(run_.tracer, pixels, maxDepth_, lightCount_, options_, film_);
-    plan_.gather.onlyPixel = pixel_;
+    VirtualLights lights = obtain(0);
+    plan_ = planBands(run_.tracer, pixels, maxDepth_, gatheredLights(lights.size(), options_),
+                      options_, film_);
+    useLights(0, std::move(lights));
+    gather_ = plan_.gather;
+    gather_.onlyPixel = pixel_;
     const int row = static_cast<int>(pixel_) / film_.width;
     for (int sample = 0; sample < plan_.eye.sampleCount && !context_.cancelled(); ++sample) {
-      if (plan_.set(sample) != set_) useLights(plan_.set(sample));
+      if (plan_.set(sample) != set_) useLights(plan_.set(sample), obtain(plan_.set(sample)));
       plan_.eye.sample = sample;
       renderSample(sample, row / plan_.bandRows);
     }
@@ -61,11 +65,14 @@ class LightReplay {
   }
 
  private:
-  void useLights(int set) {
-    const VirtualLights lights =
-        obtainLights(run_.tracer, run_.emitters, maxDepth_, set, options_, context_);
+  VirtualLights obtain(int set) {
+    return obtainLights(run_.tracer, run_.emitters, maxDepth_, set, options_, context_);
+  }
+  void useLights(int set, VirtualLights lights) {
     lightCount_ = lights.size();
-    parts_ = splitLights(lights);
+    ReductionReport unused;
+    parts_ = reduceParts(run_.tracer, run_.emitters, camera_, plan_, set,
+                         splitLights(std::move(lights)), options_, &unused, context_);
     set_ = set;
   }
 
@@ -89,7 +96,7 @@ class LightReplay {
 
   std::vector<Rgb> gather(const Receivers& run, const VirtualLights& lights, Context& context) {
     std::vector<Rgb> out(run.points.size());
-    if (lights.size() > 0) gatherAll(run_.tracer, run, lights, plan_.gather, out, context);
+    if (lights.size() > 0) gatherAll(run_.tracer, run, lights, gather_, out, context);
     return out;
   }
 
@@ -168,6 +175,7 @@ class LightReplay {
   Film& film_;
   Context& context_;
   BandPlan plan_;
+  GatherSettings gather_;  // of this pixel alone
   LightParts parts_;
   size_t lightCount_ = 0;
   int set_ = 0;

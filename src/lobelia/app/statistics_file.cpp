@@ -23,8 +23,8 @@ double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
 Json secondsJson(const Statistics& statistics) {
   Json out;
-  for (const char* stage : {"load", "accel", "receivers", "lights", "trees", "traverse",
-                            "visibility", "shade", "trace", "total"}) {
+  for (const char* stage : {"load", "accel", "receivers", "lights", "trees", "traverse", "rows",
+                            "cluster", "visibility", "shade", "trace", "total"}) {
     out[stage] = statistics.seconds(stage);
   }
   return out;
@@ -35,17 +35,16 @@ Json secondsJson(const Statistics& statistics) {
 void writeStatistics(const std::string& file, const RenderOptions& options, const Scene& scene,
                      const Film& film, const VirtualLightReport& report, const Context& context) {
   const Statistics& s = context.statistics;
-  const VirtualLights& lights = report.lights;
+  const LightCounts& lights = report.lights;
   const bool virtualLights = options.lights != "path" && options.lights != "light";
   size_t pixels = film.pixelCount();
   if (!film.alpha.empty()) {
     pixels = static_cast<size_t>(std::count(film.alpha.begin(), film.alpha.end(), 1.f));
   }
   const double shadowRays = static_cast<double>(s.count("shadow_rays"));
-  const double lightBytes = static_cast<double>(
-      lights.omni.size() * sizeof(OmniLight) +
-      lights.directional.size() * sizeof(DirectionalLight) +
-      lights.diffuse.size() * sizeof(DiffuseLight) + lights.glossy.size() * sizeof(GlossyLight));
+  const auto countOf = [&](gather::LightClass lightClass) {
+    return lights.byClass[static_cast<size_t>(lightClass)];
+  };
   const double receivers = static_cast<double>(report.diffuseReceivers + report.glossyReceivers);
   const double receiverBytes =
       static_cast<double>(report.receiverPoints) * sizeof(ReceiverPoint) + receivers * sizeof(Lobe);
@@ -55,11 +54,11 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                    {"materials", scene.materials.size()},
                    {"emitters", scene.emitters.size()}};
   json["lights"] = {{"model", options.lights},
-                    {"omni", lights.omni.size()},
-                    {"directional", lights.directional.size()},
-                    {"diffuse", lights.diffuse.size()},
-                    {"glossy", lights.glossy.size()},
-                    {"spherical", 0},
+                    {"omni", countOf(gather::LightClass::omni)},
+                    {"directional", countOf(gather::LightClass::directional)},
+                    {"diffuse", countOf(gather::LightClass::diffuse)},
+                    {"glossy", countOf(gather::LightClass::glossy)},
+                    {"spherical", countOf(gather::LightClass::spherical)},
                     {"vsgl", 0},
                     {"particles", lights.particles},
                     {"sets", report.sets}};
@@ -67,7 +66,14 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"mode", ""},
                     {"bound", ""},
                     {"threshold", 0},
-                    {"error", 0}};
+                    {"error", options.error}};
+  if (const ReductionReport& r = report.reduction; r.sets > 0) {
+    json["gather"]["rows"] = r.rows;
+    json["gather"]["columns"] = ratio(static_cast<double>(r.columns), static_cast<double>(r.sets));
+    json["gather"]["sketch"] = r.sketch;
+    json["gather"]["predicted_error"] = r.error(1);
+    json["gather"]["predicted_error_direct"] = r.error(0);
+  }
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
   json["seconds"] = secondsJson(s);
   json["counts"] = {{"shadow_rays", s.count("shadow_rays")},
@@ -76,14 +82,15 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"node_pairs_visited", s.count("node_pairs_visited")},
                     {"node_pairs_shaded", s.count("node_pairs_shaded")},
                     {"cut_nodes_per_pixel", 0},
-                    {"lights_per_light_node", lights.size() > 0 ? 1 : 0},
+                    {"lights_per_light_node", lights.total > 0 ? 1 : 0},
                     {"pixels_per_pixel_node", report.receiverPoints > 0 ? 1 : 0},
                     {"specular_connections", s.count("specular_connections")},
                     {"paths_cut", s.count("paths_cut")},
                     {"nonfinite", s.count("nonfinite") + countNonFinite(film)}};
   json["memory"] = {{"peak_bytes", peakBytes()},
                     {"embree_bytes", s.value("embree_bytes")},
-                    {"bytes_per_light", ratio(lightBytes, static_cast<double>(lights.size()))},
+                    {"bytes_per_light",
+                     ratio(static_cast<double>(lights.bytes), static_cast<double>(lights.total))},
                     {"bytes_per_receiver", ratio(receiverBytes, receivers)}};
   const std::string text = json.dump(2) + "\n";
   writeFileAtomically(file, std::as_bytes(std::span<const char>(text)));

@@ -21,46 +21,13 @@
 #include "lobelia/base/parallel.h"
 #include "lobelia/gather/gather.h"
 #include "lobelia/gather/kernels.h"
+#include "lobelia/gather/light_range.h"
 #include "lobelia/gather/tile_parts.h"
 
 namespace lobelia {
 namespace {
 
 using namespace gather;
-
-// Half-open range of lights.
-struct LightRange {
-  size_t begin = 0, end = 0;
-};
-
-// The lights of a class that a receiver of this depth gathers from.
-LightRange rangeForDepth(const VirtualLights& lights, LightClass lightClass,
-                         const GatherSettings& settings, int receiverDepth) {
-  LightRange range;
-  range.begin = settings.direct ? 0 : emitterLightCount(lights, lightClass);
-  range.end = settings.maxDepth < 0
-                  ? lightCount(lights, lightClass)
-                  : lightsUpToDepth(lights, lightClass, settings.maxDepth - 1 - receiverDepth);
-  range.end = std::max(range.begin, range.end);
-  return range;
-}
-
-// Marks the pairs of points and lights that depth allows.
-void allowPairs(const Tile& tile, const LightBlock& block, const VirtualLights& lights,
-                const GatherSettings& settings, PairMasks* pairs) {
-  const size_t count = static_cast<size_t>(block.count);
-  pairs->reset(count, tile.strips.size());
-  for (size_t s = 0; s < tile.strips.size(); ++s) {
-    const PointStrip& strip = tile.strips[s];
-    for (size_t l = 0; l < count; ++l) pairs->at(l, s) = static_cast<uint16_t>(strip.active);
-    if (settings.maxDepth < 0) continue;
-    for (uint32_t lane = 0; lane < kStrip; ++lane) {
-      const size_t end = rangeForDepth(lights, block.lightClass, settings, strip.depth[lane]).end;
-      for (size_t l = end > block.first ? end - block.first : 0; l < count; ++l)
-        pairs->at(l, s) &= static_cast<uint16_t>(~(1u << lane));
-    }
-  }
-}
 
 struct Tally {
   uint64_t rays = 0, pairs = 0, nonfinite = 0;
@@ -76,7 +43,8 @@ class TileGather {
         lights_(lights),
         settings_(settings),
         parts_(parts),
-        context_(context) {}
+        context_(context),
+        spheres_(prepareSpheres(lights, tracer.scene())) {}
 
   // False when cancelled before the end: then nothing was added to radiance.
   bool run(size_t begin, size_t end, std::span<Rgb> radiance, Tally* tally) const {
@@ -111,7 +79,7 @@ class TileGather {
     for (size_t first = range.begin; first < range.end; first += kBlockLights) {
       if (context_.cancelled()) return false;
       prepare(lights_, tracer_.scene(), lightClass, first,
-              std::min(kBlockLights, range.end - first), &block);
+              std::min(kBlockLights, range.end - first), &block, spheres_);
       allowPairs(tile, block, lights_, settings_, &pairs);
       if (parts != nullptr) parts->watchRays(&pairs);
       const int64_t start = nanosecondsNow();
@@ -141,6 +109,7 @@ class TileGather {
   const GatherSettings& settings_;
   GatherParts* parts_;
   const Context& context_;
+  const std::vector<PreparedSphere> spheres_;
 };
 
 // Few points in smaller tiles, so that all threads get some. By the points alone: a ray's answer

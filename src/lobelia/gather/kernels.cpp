@@ -34,20 +34,31 @@ size_t keepVisible(const g::Tile& tile, const g::LightBlock& block, const Tracer
   return keepVisibleOf<g::LightClass::glossy>(tile, block, tracer, pairs);
 }
 
-void shade(const g::Tile& tile, const g::LightBlock& block, float clamp, const g::PairMasks& pairs,
-           g::TileSums* sums) {
+template <class Out>
+void shadeClass(const g::Tile& tile, const g::LightBlock& block, float clamp,
+                const g::PairMasks& pairs, Out* out) {
   switch (block.lightClass) {
     case g::LightClass::omni:
-      return shadeOf<g::LightClass::omni>(tile, block, clamp, pairs, sums);
+      return shadeOf<g::LightClass::omni>(tile, block, clamp, pairs, out);
     case g::LightClass::directional:
-      return shadeOf<g::LightClass::directional>(tile, block, clamp, pairs, sums);
+      return shadeOf<g::LightClass::directional>(tile, block, clamp, pairs, out);
     case g::LightClass::diffuse:
-      return shadeOf<g::LightClass::diffuse>(tile, block, clamp, pairs, sums);
+      return shadeOf<g::LightClass::diffuse>(tile, block, clamp, pairs, out);
     case g::LightClass::glossy:
-      return shadeOf<g::LightClass::glossy>(tile, block, clamp, pairs, sums);
+      return shadeOf<g::LightClass::glossy>(tile, block, clamp, pairs, out);
     case g::LightClass::spherical:
-      return shadeOf<g::LightClass::spherical>(tile, block, clamp, pairs, sums);
+      return shadeOf<g::LightClass::spherical>(tile, block, clamp, pairs, out);
   }
+}
+
+void shade(const g::Tile& tile, const g::LightBlock& block, float clamp, const g::PairMasks& pairs,
+           g::TileSums* sums) {
+  shadeClass(tile, block, clamp, pairs, sums);
+}
+
+void shadePairs(const g::Tile& tile, const g::LightBlock& block, float clamp,
+                const g::PairMasks& pairs, g::PairValues* values) {
+  shadeClass(tile, block, clamp, pairs, values);
 }
 
 LOBELIA_CORE_END
@@ -56,6 +67,7 @@ LOBELIA_CORE_END
 namespace lobelia {
 HWY_EXPORT(keepVisible);
 HWY_EXPORT(shade);
+HWY_EXPORT(shadePairs);
 }  // namespace lobelia
 
 namespace lobelia::gather {
@@ -68,6 +80,11 @@ size_t keepVisible(const Tile& tile, const LightBlock& block, const Tracer& trac
 void shade(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
            TileSums* sums) {
   HWY_DYNAMIC_DISPATCH(lobelia::shade)(tile, block, clamp, pairs, sums);
+}
+
+void shadePairs(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
+                PairValues* values) {
+  HWY_DYNAMIC_DISPATCH(lobelia::shadePairs)(tile, block, clamp, pairs, values);
 }
 
 }  // namespace lobelia::gather

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "lobelia/gather/aligned_floats.h"
 #include "lobelia/gather/light_block.h"
 #include "lobelia/gather/tile.h"
 
@@ -35,9 +36,23 @@ struct TileSums {
   uint64_t pairs = 0, nonfinite = 0;
 };
 
+// Values of pairs of a tile and a block, [light][strip][lane] as PairMasks; 0 where a pair is not
+// lit.
+struct PairValues {
+  AlignedFloats x, y, z;
+  uint64_t pairs = 0, nonfinite = 0;
+  void reset(size_t lightCount, size_t stripCount) {
+    for (AlignedFloats* values : {&x, &y, &z})
+      values->assign(lightCount * stripCount * kStrip, 0.f);
+  }
+};
+
 // Adds the light of the pairs to the sums: in the order of the lights, in float within the block.
 // A pair whose value is not finite adds nothing and is counted.
 void shade(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
            TileSums* sums);
+// The same pairs' values, one by one; values: reset() for the block and tile.
+void shadePairs(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
+                PairValues* values);
 
 }  // namespace lobelia::gather

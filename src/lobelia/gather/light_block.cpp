@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lobelia/base/parallel.h"
 #include "lobelia/scene/shading.h"
 
 namespace lobelia::gather {
@@ -60,13 +61,21 @@ void prepareAll(const std::vector<Light>& lights, LightBlock* block) {
   }
 }
 
-void prepareSpheres(const VirtualLights& lights, const Scene& scene, LightBlock* block) {
+void prepareSpheres(const VirtualLights& lights, const Scene& scene,
+                    const std::vector<PreparedSphere>& shared, LightBlock* block) {
   block->sphereShading = lights.sphereShading;
-  block->spheres.resize(kBlockLights);
+  if (!shared.empty()) {
+    block->spheres = &shared[block->first];
+  } else {
+    block->ownSpheres.resize(kBlockLights);
+    for (size_t i = 0; i < static_cast<size_t>(block->count); ++i)
+      prepareSphere(scene, lights.spherical[block->first + i], lights.specularLimit,
+                    &block->ownSpheres[i]);
+    block->spheres = block->ownSpheres.data();
+  }
   for (int i = 0; i < block->count; ++i) {
     const SphericalLight& light = lights.spherical[block->first + static_cast<size_t>(i)];
-    PreparedSphere& sphere = block->spheres[static_cast<size_t>(i)];
-    prepareSphere(scene, light, lights.specularLimit, &sphere);
+    const PreparedSphere& sphere = block->spheres[i];
     PreparedLight& out = block->lights[i];
     out = {};
     out.p = light.p;
@@ -163,8 +172,19 @@ size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass) {
   return first(lights.glossyDepthEnds);
 }
 
+std::vector<PreparedSphere> prepareSpheres(const VirtualLights& lights, const Scene& scene) {
+  constexpr size_t kMostShared = 1 << 16;  // about 100 MB
+  std::vector<PreparedSphere> spheres;
+  if (lights.spherical.size() > kMostShared) return spheres;
+  spheres.resize(lights.spherical.size());
+  parallelFor(spheres.size(), 64, [&](size_t i) {
+    prepareSphere(scene, lights.spherical[i], lights.specularLimit, &spheres[i]);
+  });
+  return spheres;
+}
+
 void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightClass, size_t first,
-             size_t count, LightBlock* block) {
+             size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared) {
   block->patterns.clear();
   block->lightClass = lightClass;
   block->first = first;
@@ -180,7 +200,7 @@ void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightCl
     case LightClass::glossy:
       return prepareAll(lights.glossy, block);
     case LightClass::spherical:
-      return prepareSpheres(lights, scene, block);
+      return prepareSpheres(lights, scene, shared, block);
   }
 }
 

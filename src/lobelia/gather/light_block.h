@@ -37,7 +37,8 @@ struct LightBlock {
   int count = 0;
   PreparedLight lights[kBlockLights];
   std::vector<EmissionPattern> patterns;  // of the lights that have one, in their order
-  std::vector<PreparedSphere> spheres;    // spherical: parallel to lights
+  const PreparedSphere* spheres = nullptr;  // spherical: parallel to lights
+  std::vector<PreparedSphere> ownSpheres;   // unless they are shared
   SphereShading sphereShading;
 };
 
@@ -49,8 +50,12 @@ size_t lightCount(const VirtualLights& lights, LightClass lightClass);
 size_t lightsUpToDepth(const VirtualLights& lights, LightClass lightClass, int depth);
 // How many of the lights of a class are on emitters themselves (depth 0); they come first.
 size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass);
-// The block's patterns keep references to the scene.
+// All spherical lights unpacked, for whoever prepares them again and again; empty when they are too
+// many to keep.
+std::vector<PreparedSphere> prepareSpheres(const VirtualLights& lights, const Scene& scene);
+// The block's patterns keep references to the scene. shared: prepareSpheres(); it must outlive the
+// block.
 void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightClass, size_t first,
-             size_t count, LightBlock* block);
+             size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared = {});
 
 }  // namespace lobelia::gather

@@ -1,7 +1,7 @@
 // Light of visible pairs at a strip of 16 receiver points, in three steps over the block's lights:
 // directions and light factors; the lobes, one after the other with their kinds as compile-time
-// constants where that pays; sums. Lanes that are not visible are computed and dropped: points stay
-// in their registers, nothing is gathered.
+// constants where that pays; sums, or the values of pairs one by one. Lanes that are not visible
+// are computed and dropped: points stay in their registers, nothing is gathered.
 #if defined(LOBELIA_GATHER_SHADING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_GATHER_SHADING_INL_H_
 #undef LOBELIA_GATHER_SHADING_INL_H_
@@ -165,16 +165,47 @@ inline void applyPattern(const g::PointStrip& strip, size_t lane, const g::Prepa
   }
 }
 
+// Where values of pairs go: into sums over the lights...
 struct LaneSums {
-  V3<Vf> sum;
-  uint64_t pairs, nonfinite;
+  g::TileSums* sums;
+  V3<Vf> sum{Vf(0.f), Vf(0.f), Vf(0.f)};
+  HWY_INLINE void add(size_t, V3<Vf> value) {
+    sum.x += value.x;
+    sum.y += value.y;
+    sum.z += value.z;
+  }
+  void finish(size_t s, size_t lane) const {
+    alignas(64) float x[kLanes], y[kLanes], z[kLanes];
+    sum.x.store(x);
+    sum.y.store(y);
+    sum.z.store(z);
+    g::TileSums::Strip& strip = sums->strips[s];
+    for (size_t k = 0; k < kLanes; ++k) {
+      strip.x[lane + k] += static_cast<double>(x[k]);
+      strip.y[lane + k] += static_cast<double>(y[k]);
+      strip.z[lane + k] += static_cast<double>(z[k]);
+    }
+  }
 };
 
-template <g::LightClass kClass>
-LaneSums sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, float clamp,
-               PairScratch* pairs) {
+// ...or each to its place. `at`: of light 0 and the first of the lanes.
+struct LaneValues {
+  g::PairValues* values;
+  size_t at, stride;
+  HWY_INLINE void add(size_t light, V3<Vf> value) {
+    const size_t i = at + light * stride;
+    value.x.store(&values->x[i]);
+    value.y.store(&values->y[i]);
+    value.z.store(&values->z[i]);
+  }
+  void finish(size_t, size_t) const {}
+};
+
+// Out counts pairs and non-finite ones; what they are worth goes to the sink.
+template <g::LightClass kClass, class Sink, class Out>
+void sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, float clamp,
+           PairScratch* pairs, Sink* sink, Out* out) {
   constexpr bool kClamped = kClass != g::LightClass::directional;
-  LaneSums sums{{Vf(0.f), Vf(0.f), Vf(0.f)}, 0, 0};
   for (size_t i = 0; i < pairs->count; ++i) {
     const g::PreparedLight& light = block.lights[pairs->light[i]];
     Vf factor = Vf::load(pairs->factor[i].v);
@@ -193,23 +224,27 @@ LaneSums sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& blo
     const Vf total = value.x + value.y + value.z;
     const Mf visible = maskFromBits(pairs->mask[i]);
     const Mf good = visible & (total - total == Vf(0.f));
-    sums.sum.x += select(good, value.x, Vf(0.f));
-    sums.sum.y += select(good, value.y, Vf(0.f));
-    sums.sum.z += select(good, value.z, Vf(0.f));
+    sink->add(pairs->light[i], {select(good, value.x, Vf(0.f)), select(good, value.y, Vf(0.f)),
+                                select(good, value.z, Vf(0.f))});
     const size_t visibleCount = hn::CountTrue(Df(), visible.m);
-    sums.pairs += visibleCount;
-    sums.nonfinite += visibleCount - hn::CountTrue(Df(), good.m);
+    out->pairs += visibleCount;
+    out->nonfinite += visibleCount - hn::CountTrue(Df(), good.m);
   }
-  return sums;
 }
 
 // spherical-inl.h
 void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane,
                     const g::LightBlock& block, PairScratch* pairs);
 
-template <g::LightClass kClass>
+inline LaneSums sinkFor(g::TileSums* sums, size_t, size_t, const g::PairMasks&) { return {sums}; }
+inline LaneValues sinkFor(g::PairValues* values, size_t s, size_t lane, const g::PairMasks& masks) {
+  return {values, s * g::kStrip + lane, masks.strips * g::kStrip};
+}
+
+// Out: TileSums or PairValues.
+template <g::LightClass kClass, class Out>
 void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
-             const g::PairMasks& pairMasks, g::TileSums* sums) {
+             const g::PairMasks& pairMasks, Out* out) {
   PairScratch pairs;
   for (size_t s = 0; s < tile.strips.size(); ++s) {
     const g::PointStrip& strip = tile.strips[s];
@@ -230,19 +265,9 @@ void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
         directions<kClass>(strip, lane, block, &pairs);
         addLobes(tile, strip, lane, &pairs);
       }
-      const LaneSums lanes = sumUp<kClass>(strip, lane, block, clamp, &pairs);
-      sums->pairs += lanes.pairs;
-      sums->nonfinite += lanes.nonfinite;
-      alignas(64) float x[kLanes], y[kLanes], z[kLanes];
-      lanes.sum.x.store(x);
-      lanes.sum.y.store(y);
-      lanes.sum.z.store(z);
-      g::TileSums::Strip& sum = sums->strips[s];
-      for (size_t k = 0; k < kLanes; ++k) {
-        sum.x[lane + k] += static_cast<double>(x[k]);
-        sum.y[lane + k] += static_cast<double>(y[k]);
-        sum.z[lane + k] += static_cast<double>(z[k]);
-      }
+      auto sink = sinkFor(out, s, lane, pairMasks);
+      sumUp<kClass>(strip, lane, block, clamp, &pairs, &sink, out);
+      sink.finish(s, lane);
     }
   }
 }

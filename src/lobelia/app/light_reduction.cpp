@@ -1,0 +1,130 @@
+#include "lobelia/app/light_reduction.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "lobelia/base/error.h"
+#include "lobelia/base/random.h"
+
+namespace lobelia::app {
+namespace {
+
+constexpr uint64_t kStream = 0x6d726373;  // of everything random here
+constexpr size_t kDefaultRows = 1024;
+// Where neither --columns nor --error says what is wanted.
+constexpr double kDefaultError = 0.02;
+constexpr size_t kDefaultMostColumns = 16384;
+
+bool reduces(const RenderOptions& options) { return options.gather == "mrcs"; }
+
+MrcsSettings settingsFor(const RenderOptions& options, const BandPlan& plan) {
+  MrcsSettings settings;
+  settings.gather = plan.gather;
+  settings.columns = options.columns > 0 ? options.columns : kDefaultMostColumns;
+  settings.errorLimit = options.error;
+  if (options.error > 0 && options.columns == 0) settings.columns = SIZE_MAX;
+  if (options.error <= 0 && options.columns == 0) settings.errorLimit = kDefaultError;
+  // The picture is the mean of independent sets.
+  settings.errorLimit *= std::sqrt(static_cast<double>(plan.sets));
+  if (!options.sketch.empty())
+    settings.sketch = options.sketch == "off" ? 0 : std::stoi(options.sketch);
+  settings.memory = options.memory;
+  settings.scalePerChannel = options.columnScale == "channel";
+  return settings;
+}
+
+int firstSample(const BandPlan& plan, int set) {
+  int sample = 0;
+  while (plan.set(sample) < set) ++sample;
+  return sample;
+}
+
+gather::Rows traceRows(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+                       const BandPlan& plan, int set, size_t rows, uint64_t seed,
+                       Context& context) {
+  Film shape;  // without layers: the rows' own emission is of no interest
+  shape.fullWidth = camera.width, shape.fullHeight = camera.height;
+  shape.x0 = camera.cropX0, shape.y0 = camera.cropY0;
+  shape.width = camera.cropX1 - camera.cropX0;
+  shape.height = camera.cropY1 - camera.cropY0;
+  const gather::RowPixels chosen =
+      gather::chooseRowPixels(shape.width, shape.height, plan.eye.pixels, rows, seed);
+  EyeSettings eye = plan.eye;
+  eye.sample = firstSample(plan, set);
+  eye.pixels = chosen.pixels;
+  eye.directSamples = 0;
+  return makeRows(chosen,
+                  traceReceivers(tracer, emitters, camera, eye, 0, shape.height, shape, context),
+                  shape.width);
+}
+
+}  // namespace
+
+double ReductionReport::error(int part) const {
+  return sets > 0 ? std::sqrt(squaredError[part]) / static_cast<double>(sets) : 0;
+}
+
+void requireReduction(const RenderOptions& options) {
+  if (!options.sketch.empty() && options.sketch != "off") {
+    int dims = 0;
+    const char* end = options.sketch.data() + options.sketch.size();
+    const auto [next, error] = std::from_chars(options.sketch.data(), end, dims);
+    if (error != std::errc() || next != end || dims < 16 || dims > 4096 || dims % 16 != 0) {
+      throw UsageError(fmt::format(
+          "--sketch '{}' is neither a multiple of 16 from 16 to 4096 nor 'off'", options.sketch));
+    }
+  }
+  if (reduces(options)) return;
+  for (const auto& [name, given] :
+       {std::pair{"--rows", options.rows > 0}, std::pair{"--columns", options.columns > 0},
+        std::pair{"--sketch", !options.sketch.empty()},
+        std::pair{"--column-scale", options.columnScale != "scalar"},
+        std::pair{"--error", options.error > 0}}) {
+    if (given)
+      throw UsageError(fmt::format("{} is for --gather mrcs; --gather {} has no use for it", name,
+                                   options.gather));
+  }
+}
+
+size_t gatheredLights(size_t lights, const RenderOptions& options) {
+  if (!reduces(options)) return lights;
+  return std::min(lights, options.columns > 0 ? options.columns : kDefaultMostColumns);
+}
+
+LightParts reduceParts(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+                       const BandPlan& plan, int set, LightParts parts,
+                       const RenderOptions& options, ReductionReport* report, Context& context) {
+  if (!reduces(options)) return parts;
+  MrcsSettings settings = settingsFor(options, plan);
+  const uint64_t seed = hashCombine(hashCombine(context.seed, kStream), static_cast<uint64_t>(set));
+  const gather::Rows rows =
+      traceRows(tracer, emitters, camera, plan, set, options.rows > 0 ? options.rows : kDefaultRows,
+                seed, context);
+  ++report->sets;
+  VirtualLights* const lights[] = {&parts.direct, &parts.indirect};
+  for (const int part : {0, 1}) {
+    if (part == 1 && options.component == "direct") continue;
+    if (context.cancelled() || lights[part]->size() == 0) continue;
+    settings.seed = hashCombine(seed, static_cast<uint64_t>(part));
+    MrcsReport one;
+    VirtualLights few = reduceLights(tracer, rows, *lights[part], settings, &one, context);
+    if (context.cancelled()) break;
+    *lights[part] = std::move(few);
+    report->columns += one.columns;
+    report->rows = std::max(report->rows, one.rows);
+    report->sketch = std::max(report->sketch, one.sketch);
+    report->squaredError[part] += one.error * one.error;
+    const std::string text = fmt::format(
+        "light set {}: {} of {} lights {} stand for all; {} rows; predicted error {:.2f} % "
+        "({:.2f} % in the rows)",
+        set, one.columns, one.lights, part == 0 ? "of emitters" : "of bounces", one.rows,
+        100 * one.error, 100 * one.rowError);
+    set == 0 ? context.info(text) : context.debug(text);
+  }
+  return parts;
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,134 @@
+// `render --gather mrcs` as a user types it.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "lobelia/film/metrics.h"
+#include "lobelia/io/image_io.h"
+#include "support/run_program.h"
+
+namespace lobelia {
+namespace {
+
+using test::ProgramResult;
+using test::runProgram;
+using test::TemporaryFolder;
+
+constexpr const char* kScene = "render cornell --detail 0.05 --component indirect --quiet ";
+
+class MrcsRender : public testing::Test {
+ protected:
+  Film render(const std::string& options, const std::string& name) {
+    const std::string file = folder_ / (name + ".exr");
+    const ProgramResult r =
+        runProgram(kScene + options + " -o " + file + " --stats " + (folder_ / (name + ".json")));
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return io::readFilm(file);
+  }
+  nlohmann::json statistics(const std::string& name) {
+    return nlohmann::json::parse(test::readText(folder_ / (name + ".json")));
+  }
+  static double sum(const Film& film) {
+    double total = 0;
+    for (size_t i = 0; i < film.pixelCount(); ++i)
+      total += double{film.rgb(i).x} + double{film.rgb(i).y} + double{film.rgb(i).z};
+    return total;
+  }
+  // |a - b| / |b|
+  static double distance(const Film& a, const Film& b) {
+    double difference = 0, norm = 0;
+    for (size_t i = 0; i < a.pixelCount(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        difference += std::pow(double{a.rgb(i)[c]} - double{b.rgb(i)[c]}, 2);
+        norm += std::pow(double{b.rgb(i)[c]}, 2);
+      }
+    return std::sqrt(difference / norm);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(MrcsRender, ComesNearerToAllLightsWithMoreColumns) {
+  const std::string base = "--size 48x40 --spp 1 --num-lights 4000 --clamp 1 ";
+  const Film all = render(base + "--gather all", "all");
+  double before = 1;
+  for (const int columns : {100, 400, 1600}) {
+    const std::string name = "c" + std::to_string(columns);
+    const Film few = render(base + "--gather mrcs --columns " + std::to_string(columns), name);
+    const double error = distance(few, all);
+    EXPECT_LT(error, 0.7 * before) << columns;
+    before = error;
+    const nlohmann::json gather = statistics(name)["gather"];
+    EXPECT_EQ(gather["strategy"], "mrcs");
+    EXPECT_EQ(gather["columns"], columns);
+    EXPECT_EQ(gather["rows"], 1024);
+    // Predicted from some pixels of one draw.
+    EXPECT_GT(gather["predicted_error"], error / 2.5);
+    EXPECT_LT(gather["predicted_error"], error * 2.5);
+    EXPECT_GT(statistics(name)["counts"]["shadow_rays"], 48 * 40 * columns / 10);
+  }
+  EXPECT_LT(before, 0.03);
+  EXPECT_EQ(statistics("c1600")["lights"]["diffuse"], statistics("all")["lights"]["diffuse"]);
+}
+
+TEST_F(MrcsRender, ErrorDecidesTheColumns) {
+  const std::string base = "--size 48x40 --spp 1 --num-lights 4000 --clamp 1 --gather mrcs ";
+  render(base + "--error 0.1", "a");
+  render(base + "--error 0.03", "b");
+  render(base + "--error 0.001 --columns 70", "c");
+  EXPECT_LT(statistics("a")["gather"]["predicted_error"], 0.1);
+  EXPECT_LT(statistics("b")["gather"]["predicted_error"], 0.03);
+  EXPECT_GT(statistics("b")["gather"]["columns"], statistics("a")["gather"]["columns"]);
+  EXPECT_EQ(statistics("c")["gather"]["columns"], 70);
+}
+
+TEST_F(MrcsRender, PartsOfThePictureAndPassesHaveTheLightOfAll) {
+  const std::string base = "--size 48x40 --spp 8 --num-lights 1000 --clamp 1 ";
+  for (const char* part : {"--crop 10,8,40,32", "--pixels 700", "--passes 2", "--passes 8",
+                           "--direct lights --component all", "--max-depth 4"}) {
+    SCOPED_TRACE(part);
+    const Film all = render(base + part + " --gather all", "all");
+    const Film few = render(base + part + " --gather mrcs --columns 150 --rows 300", "few");
+    EXPECT_EQ(few.alpha, all.alpha);
+    EXPECT_NEAR(sum(few) / sum(all), 1, 0.02);
+    EXPECT_LT(distance(few, all), 0.15);
+    EXPECT_GT(distance(few, all), 0);
+  }
+}
+
+TEST_F(MrcsRender, AllColumnsGiveTheSameBits) {
+  const std::string base = "--size 32x24 --spp 2 --num-lights 300 ";
+  const Film all = render(base + "--gather all", "all");
+  const Film few = render(base + "--gather mrcs --columns 100000", "few");
+  for (size_t i = 0; i < all.pixelCount(); ++i) EXPECT_EQ(few.rgb(i), all.rgb(i));
+}
+
+TEST_F(MrcsRender, ThreadsDoNotMatter) {
+  const std::string base =
+      "--size 48x40 --spp 2 --num-lights 3000 --gather mrcs --columns 200 --sketch 32 ";
+  const Film one = render(base + "--threads 1", "one"), two = render(base + "--threads 2", "two");
+  for (size_t i = 0; i < one.pixelCount(); ++i) EXPECT_EQ(one.rgb(i), two.rgb(i));
+  EXPECT_EQ(statistics("one")["gather"]["sketch"], 32);
+}
+
+TEST_F(MrcsRender, WrongUseSaysWhatWouldBeRight) {
+  const auto expectError = [&](const std::string& options, const char* mentions) {
+    const ProgramResult r = runProgram(kScene + options + " -o " + (folder_ / "x.exr"));
+    EXPECT_EQ(r.exitCode, 2) << options;
+    EXPECT_NE(r.err.find(mentions), std::string::npos) << r.err;
+  };
+  expectError("--columns 10", "--gather mrcs");
+  expectError("--gather all --error 0.1", "--gather mrcs");
+  expectError("--gather mrcs --sketch 17", "multiple of 16");
+  expectError("--gather mrcs --sketch many", "'off'");
+  expectError("--gather mrcs --columns 0", "--columns");
+  expectError("--gather mrcs --rows -3", "--rows");
+  expectError("--gather mrcs --error 0", "--error");
+  expectError("--gather mrcs --memory lots", "800M or 2G");
+  expectError("--gather mrcs --column-scale grey", "--column-scale");
+  expectError("--gather mrcs --columns 50 --num-lights 2000 --memory 10K", "--memory");
+  expectError("--lights path --gather mrcs --columns 10", "--lights path");
+}
+
+}  // namespace
+}  // namespace lobelia
