@@ -26,6 +26,7 @@ set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
 find_package(meshoptimizer REQUIRED)
 find_library(DRACO_LIBRARY draco REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(nanoflann REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy libhwy-contrib)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)

@@ -14,6 +14,7 @@ struct LightParts {
   size_t size() const { return direct.size() + indirect.size(); }
 };
 
+LightSettings lightSettings(const RenderOptions& options, int maxDepth, int set);
 VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
                            int set, const RenderOptions& options, Context& context);
 LightParts splitLights(const VirtualLights& lights);

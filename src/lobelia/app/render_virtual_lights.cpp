@@ -5,6 +5,7 @@
 
 #include "lobelia/app/band_plan.h"
 #include "lobelia/app/light_layers.h"
+#include "lobelia/app/own_light.h"
 #include "lobelia/app/preview_rows.h"
 #include "lobelia/app/sampled_film.h"
 #include "lobelia/bsdf/lobe_kind.h"
@@ -29,8 +30,14 @@ class VirtualLightRender {
         checkpoints_(checkpoints),
         preview_(preview),
         context_(context) {
-    report_.lights =
-        firstSet ? *firstSet : obtainLights(tracer, emitters, maxDepth, 0, options, context);
+    photons_ = obtainPhotons(tracer, emitters, maxDepth, 0, options, context);
+    if (photons_) {
+      report_.photons = photons_->photons().size();
+      report_.lights.particles = context.statistics.count("light_particles");
+    } else {
+      report_.lights =
+          firstSet ? *firstSet : obtainLights(tracer, emitters, maxDepth, 0, options, context);
+    }
     parts_ = splitLights(report_.lights);
     plan_ = planBands(tracer, pixels, maxDepth, report_.lights.size(), options, film);
     report_.sets = plan_.sets;
@@ -68,7 +75,9 @@ class VirtualLightRender {
 
   void useLights(int set) {
     if (set == set_) return;
-    parts_ = splitLights(obtainLights(tracer_, emitters_, maxDepth_, set, options_, context_));
+    photons_ = obtainPhotons(tracer_, emitters_, maxDepth_, set, options_, context_);
+    if (!photons_)
+      parts_ = splitLights(obtainLights(tracer_, emitters_, maxDepth_, set, options_, context_));
     if (context_.cancelled()) return;
     set_ = set;
     markCounts();
@@ -111,6 +120,10 @@ class VirtualLightRender {
     backup_->take(y0, y1);
     Receivers receivers =
         traceReceivers(tracer_, emitters_, camera_, plan_.eye, y0, y1, film_, context_);
+    if (!context_.cancelled()) {
+      addOwnLight({tracer_, emitters_, photons_.get(), plan_, maxDepth_, options_}, receivers,
+                  film_, &*layers_, context_);
+    }
     if (context_.cancelled()) {
       backup_->restore(y0, y1);
       return {};
@@ -251,6 +264,7 @@ class VirtualLightRender {
 
   int set_ = 0;
   LightParts parts_;
+  std::unique_ptr<PhotonMap> photons_;  // --lights photon, in the place of lights
   BandPlan plan_;
   Position at_;
   std::vector<int> rowSamples_;

@@ -46,7 +46,7 @@ std::vector<ParticleBatch> traceParticles(const ParticleWalk& walk, uint64_t cou
 
 size_t lightCount(const std::vector<ParticleBatch>& batches) {
   size_t n = 0;
-  for (const ParticleBatch& b : batches) n += b.diffuse.size() + b.glossy.size();
+  for (const ParticleBatch& b : batches) n += b.diffuse.size() + b.glossy.size() + b.photons.size();
   return n;
 }
 
@@ -98,6 +98,18 @@ std::vector<uint32_t> sortByDepth(const std::vector<ParticleBatch>& batches, con
   return ends;
 }
 
+void countParticles(const std::vector<ParticleBatch>& batches, Context& context) {
+  ParticleBatch total;
+  for (const ParticleBatch& b : batches) {
+    total.rays += b.rays, total.cut += b.cut;
+    total.dropped += b.dropped, total.nonFinite += b.nonFinite;
+  }
+  context.statistics.addCount("path_rays", total.rays);
+  context.statistics.addCount("paths_cut", total.cut);
+  context.statistics.addCount("lights_dropped", total.dropped);
+  context.statistics.addCount("nonfinite", total.nonFinite);
+}
+
 void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, Context& context) {
   lights->diffuseDepthEnds = sortByDepth(
       batches, [](const ParticleBatch& b) -> auto& { return b.diffuse; },
@@ -110,15 +122,7 @@ void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, C
       batches, [](const ParticleBatch& b) -> auto& { return b.glossyGroup; },
       [](const ParticleBatch& b, size_t i) -> size_t { return b.glossyDepth[i]; },
       &lights->glossyGroups);
-  ParticleBatch total;
-  for (const ParticleBatch& b : batches) {
-    total.rays += b.rays, total.cut += b.cut;
-    total.dropped += b.dropped, total.nonFinite += b.nonFinite;
-  }
-  context.statistics.addCount("path_rays", total.rays);
-  context.statistics.addCount("paths_cut", total.cut);
-  context.statistics.addCount("lights_dropped", total.dropped);
-  context.statistics.addCount("nonfinite", total.nonFinite);
+  countParticles(batches, context);
 }
 
 // Emitters without an area, as lights of depth 0 (area emitters: ParticleWalk::leaveOnEmitter).
@@ -172,6 +176,28 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   context.debug(fmt::format("{} particles left {} diffuse and {} glossy lights", particles,
                             lights.diffuse.size(), lights.glossy.size()));
   return lights;
+}
+
+std::vector<Photon> makePhotons(const Tracer& tracer, const EmitterSampler& emitters,
+                                const LightSettings& wanted, Context& context) {
+  const StageTimer timer(context, "lights");
+  LightSettings settings = wanted;
+  settings.photons = true, settings.directAsLights = false;
+  std::vector<Photon> photons;
+  if (emitters.empty() || settings.count == 0 || (settings.maxDepth >= 0 && settings.maxDepth < 3))
+    return photons;
+  const uint64_t particles = chooseParticleCount(tracer, emitters, settings, context);
+  const float scale = static_cast<float>(1.0 / static_cast<double>(particles));
+  const ParticleWalk walk(tracer, emitters, settings, seedOf(settings, context), kStream, scale);
+  const std::vector<ParticleBatch> batches = traceParticles(walk, particles, context, true);
+  for (const ParticleBatch& b : batches)
+    photons.insert(photons.end(), b.photons.begin(), b.photons.end());
+  countParticles(batches, context);
+  context.statistics.addCount("light_particles", particles);
+  context.statistics.addCount("photons", photons.size());
+  if (photons.empty() && !context.cancelled())
+    context.warning("no particle met a surface with rough lobes: there is no indirect light");
+  return photons;
 }
 
 }  // namespace lobelia
