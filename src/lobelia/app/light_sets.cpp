@@ -44,12 +44,14 @@ LightParts splitLights(const VirtualLights& lights) {
   return parts;
 }
 
-// Default clamp of `vpl` and of what gets compensated: the geometry term of a light nearer than a twentieth of the scene's
-// radius, the customary cure of its spikes.
+// Default clamp of `vpl` and of what gets compensated: the geometry term of a light nearer than a
+// twentieth of the scene's radius, the customary cure of its spikes.
 float clampValue(const RenderOptions& options, float sceneRadius) {
   if (options.clamp == "off") return 0;
   if (options.clamp.empty()) {
-    return options.lights == "vpl" || options.compensate ? kInvPi / sqr(0.05f * std::max(sceneRadius, 1e-6f)) : 0;
+    return options.lights == "vpl" || options.compensate
+               ? kInvPi / sqr(0.05f * std::max(sceneRadius, 1e-6f))
+               : 0;
   }
   float value = 0;
   const char* end = options.clamp.data() + options.clamp.size();
@@ -63,9 +65,9 @@ float clampValue(const RenderOptions& options, float sceneRadius) {
 
 LightSettings lightSettings(const RenderOptions& options, int maxDepth, int set) {
   LightSettings settings;
-  settings.count = options.lightCount > 0        ? options.lightCount
+  settings.count = options.lightCount > 0       ? options.lightCount
                    : options.lights == "photon" ? kDefaultPhotons
-                                                 : kDefaultLights;
+                                                : kDefaultLights;
   settings.set = static_cast<uint32_t>(set);
   settings.maxDepth = maxDepth;
   settings.specularLimit = options.specularLimit;

@@ -15,7 +15,9 @@ const std::vector<LightModel>& lightModels() {
        "reference path tracing: next-event estimation and BSDF sampling, no virtual lights",
        {}},
       {"light", "light tracing: particles connected to the camera (a check; blind to mirrors)", {}},
-      {"photon", "photon mapping with final gathering: photons around what receivers' rays meet", {}},
+      {"photon",
+       "photon mapping with final gathering: photons around what receivers' rays meet",
+       {}},
       {"vpl", "diffuse virtual point lights only, clamped by default", {"all"}},
       {"glossy", "diffuse and spherical-Gaussian lights", {"all"}},
   };

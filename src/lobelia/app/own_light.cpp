@@ -48,8 +48,9 @@ void requireOwnLight(const RenderOptions& options) {
         options.lights));
   }
   if ((options.compensate || photon) && options.direct == "lights") {
-    throw UsageError(fmt::format("{} leaves direct light to --direct nee; leave out --direct lights",
-                                 photon ? "--lights photon" : "--compensate"));
+    throw UsageError(
+        fmt::format("{} leaves direct light to --direct nee; leave out --direct lights",
+                    photon ? "--lights photon" : "--compensate"));
   }
   if (photon && !options.clamp.empty())
     throw UsageError("--clamp limits virtual lights and --lights photon has none");

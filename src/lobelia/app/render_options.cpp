@@ -140,8 +140,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "scene's radius")
       ->type_name("X")
       ->check(finiteNumber(0, HUGE_VAL, false));
-  c.add_option("--gather-rays", o.gatherRays,
-               "With --lights photon: rays of a receiver per sample")
+  c.add_option("--gather-rays", o.gatherRays, "With --lights photon: rays of a receiver per sample")
       ->type_name("N")
       ->check(integerRange(1, 1 << 16))
       ->capture_default_str();

@@ -13,7 +13,7 @@ namespace lobelia::app {
 struct VirtualLightReport {  // for --stats
   VirtualLights lights;      // the first set
   int sets = 1;              // independent sets that were averaged
-  uint64_t photons = 0;  // of the first set (--lights photon)
+  uint64_t photons = 0;      // of the first set (--lights photon)
   uint64_t diffuseReceivers = 0, glossyReceivers = 0, receiverPoints = 0;
 };
 

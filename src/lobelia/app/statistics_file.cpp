@@ -23,8 +23,9 @@ double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
 Json secondsJson(const Statistics& statistics) {
   Json out;
-  for (const char* stage : {"load", "accel", "receivers", "lights", "trees", "traverse",
-                            "visibility", "shade", "compensate", "final_gather", "trace", "total"}) {
+  for (const char* stage :
+       {"load", "accel", "receivers", "lights", "trees", "traverse", "visibility", "shade",
+        "compensate", "final_gather", "trace", "total"}) {
     out[stage] = statistics.seconds(stage);
   }
   return out;

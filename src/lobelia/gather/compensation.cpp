@@ -203,8 +203,7 @@ class Compensation {
     const float p = density(v, wi);
     if (!(p > 0)) return {};
     throughput *= missing(v, wi, uMissing) / p;
-    const float survival =
-        std::min(1.f, maxComponent(absolute(throughput)) / kRouletteThreshold);
+    const float survival = std::min(1.f, maxComponent(absolute(throughput)) / kRouletteThreshold);
     if (!(uRoulette < survival)) return {};
     throughput /= survival;
 

@@ -73,8 +73,7 @@ class FinalGather {
       const Vec3f wi = decodeOctahedral(photon.wi);
       const Rgb f = evaluate(bsdf, w, wi, LobeSet::rough);
       if (f == Rgb{}) continue;
-      const Rgb value =
-          scale * f * photon.power / std::max(std::abs(dot(wi, at.ng)), kLeastCosine);
+      const Rgb value = scale * f * photon.power / std::max(std::abs(dot(wi, at.ng)), kLeastCosine);
       sum += value;
       if (groups != nullptr) groups[photon.group()] += factor * value;
     }

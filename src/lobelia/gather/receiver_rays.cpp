@@ -70,8 +70,7 @@ void lightReceivers(const Receivers& receivers, const ReceiverRaySettings& setti
       }
       bad[i] = counts.nonFinite > badBefore;
       if (parts != nullptr && parts->countRays)
-        parts->rays[i] =
-            static_cast<uint32_t>(counts.pathRays + counts.shadowRays - raysBefore);
+        parts->rays[i] = static_cast<uint32_t>(counts.pathRays + counts.shadowRays - raysBefore);
     }
     pathRays += counts.pathRays, shadowRays += counts.shadowRays, nonFinite += counts.nonFinite;
     const size_t finished = done += end - begin;

@@ -1,5 +1,5 @@
-// Light that receivers find by rays of their own, beside or instead of virtual lights: the loop that
-// compensation (compensation.h) and final gathering (final_gather.h) share.
+// Light that receivers find by rays of their own, beside or instead of virtual lights: the loop
+// that compensation (compensation.h) and final gathering (final_gather.h) share.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,9 @@
 namespace lobelia {
 
 struct ReceiverRaySettings {
-  int sample = 0;               // index of the eye sample, of EyeSettings
-  int x0 = 0, y0 = 0, width = 1;  // of the data window: a pixel's random numbers do not depend on it
+  int sample = 0;  // index of the eye sample, of EyeSettings
+  int x0 = 0, y0 = 0,
+      width = 1;  // of the data window: a pixel's random numbers do not depend on it
   uint32_t onlyPixel = GatherSettings::kAllPixels;  // of which alone the receivers count (--replay)
 };
 
