@@ -204,8 +204,7 @@ TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
   const TemporaryFolder folder;
   for (const char* method : {"path", "light", "glossy", "vpl", "glossy --compensate", "photon"}) {
     const auto render = [&](int threads, const char* seed) {
-      const std::string file =
-          folder / (std::string(method) + std::to_string(threads) + seed + ".exr");
+      const std::string file = folder / (std::to_string(threads) + seed + ".exr");
       const ProgramResult r =
           runProgram(std::string(kSmall) + "--spp 2 --num-lights 200 --lights " + method +
                      " --threads " + std::to_string(threads) + " --seed " + seed + " -o " + file);

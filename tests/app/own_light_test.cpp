@@ -71,7 +71,7 @@ TEST_P(OwnLight, PhotonsConvergeToThePathTracer) {
   EXPECT_NEAR(many.mean, 1, 0.01 + 4 * many.error);
 }
 
-INSTANTIATE_TEST_SUITE_P(Studies, OwnLight, testing::Values("study-diffuse", "study-ggx"),
+INSTANTIATE_TEST_SUITE_P(Slow, OwnLight, testing::Values("study-diffuse", "study-ggx"),
                          [](const auto& param) { return param.index == 0 ? "Diffuse" : "Glossy"; });
 
 TEST(OwnLightOptions, WhatDoesNotCombineIsRefused) {
