@@ -136,7 +136,13 @@ INSTANTIATE_TEST_SUITE_P(
                            "--columns 120 --rows 100 --aov direct,indirect,variance,cost"},
                     Method{"pixels",
                            "--lights vpl --size 64x64 --pixels 500 --spp 8 "
-                           "--num-lights 500 --passes 2 --direct lights"}),
+                           "--num-lights 500 --passes 2 --direct lights"},
+                    Method{"compensate",
+                           "--lights vpl --compensate --size 48x40 --spp 8 --num-lights 300 "
+                           "--aov direct,indirect,variance,groups,cost"},
+                    Method{"photon",
+                           "--lights photon --size 48x40 --spp 16 --num-lights 2000 "
+                           "--aov direct,indirect,variance,groups,cost"}),
     [](const auto& param) { return std::string(param.param.name); });
 
 TEST(CheckpointFile, OfAnotherRenderIsRefusedAndSaysWhy) {

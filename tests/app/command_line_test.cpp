@@ -149,7 +149,7 @@ TEST(CommandLine, MessagesQuoteFilesSafely) {
 // Every second is booked once: stages do not add up to more than the whole.
 TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
   const TemporaryFolder folder;
-  for (const char* method : {"path", "light", "vpl", "glossy"}) {
+  for (const char* method : {"path", "light", "vpl", "glossy", "vpl --compensate", "photon"}) {
     ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
                          " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
                   .exitCode,
@@ -202,10 +202,9 @@ TEST(CommandLine, RenderWritesPicturesAovsStatisticsAndMetadata) {
 
 TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
   const TemporaryFolder folder;
-  for (const char* method : {"path", "light", "glossy", "vpl"}) {
+  for (const char* method : {"path", "light", "glossy", "vpl", "glossy --compensate", "photon"}) {
     const auto render = [&](int threads, const char* seed) {
-      const std::string file =
-          folder / (std::string(method) + std::to_string(threads) + seed + ".exr");
+      const std::string file = folder / (std::to_string(threads) + seed + ".exr");
       const ProgramResult r =
           runProgram(std::string(kSmall) + "--spp 2 --num-lights 200 --lights " + method +
                      " --threads " + std::to_string(threads) + " --seed " + seed + " -o " + file);
@@ -241,7 +240,7 @@ TEST(CommandLine, SavedLightsGiveTheSamePictureAndRefuseAnotherScene) {
 
 TEST(CommandLine, PixelsAndCropAgreeWithTheWholePicture) {
   const TemporaryFolder folder;
-  for (const std::string method : {"path", "glossy"}) {
+  for (const std::string method : {"path", "glossy", "vpl --compensate", "photon"}) {
     const std::string small =
         std::string(kSmall) + "--spp 2 --num-lights 50 --lights " + method + " ";
     ASSERT_EQ(runProgram(small + "-o " + (folder / "all.exr")).exitCode, 0);

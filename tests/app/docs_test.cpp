@@ -152,7 +152,8 @@ TEST(Completion, BashCompletes) {
   using Words = std::vector<std::string>;
   EXPECT_EQ(offeredByBash("lobelia ren"), Words{"render"});
   EXPECT_TRUE(contains(offeredByBash("lobelia render --li"), "--lights"));
-  EXPECT_EQ(offeredByBash("lobelia render --lights ''"), (Words{"path", "light", "vpl", "glossy"}));
+  EXPECT_EQ(offeredByBash("lobelia render --lights ''"),
+            (Words{"path", "light", "photon", "vpl", "glossy"}));
   EXPECT_EQ(offeredByBash("lobelia render --lights = gl"), Words{"glossy"});
   EXPECT_EQ(offeredByBash("lobelia render --aov albedo,dep"), Words{"albedo,depth"});
   EXPECT_TRUE(contains(offeredByBash("lobelia render kitch"), "kitchen"));

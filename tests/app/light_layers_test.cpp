@@ -76,8 +76,8 @@ TEST_F(LightLayers, GroupsSumToThePictureOfEveryMethod) {
   for (const std::string method :
        {"--lights path --spp 4", "--lights light --spp 4", "--lights vpl --spp 2",
         "--lights glossy --spp 2", "--lights glossy --spp 2 --direct lights --env-lights 32",
-        "--lights path --spp 4 --component indirect",
-        "--lights glossy --spp 2 --component direct"}) {
+        "--lights path --spp 4 --component indirect", "--lights glossy --spp 2 --component direct",
+        "--lights vpl --spp 2 --compensate", "--lights photon --spp 2"}) {
     const Film film = render("all.xml", method + " --num-lights 64 --aov groups");
     EXPECT_LT(difference(film, groups_, ""), 1e-4) << method;
     for (const std::string& group : groups_)
@@ -89,7 +89,9 @@ TEST_F(LightLayers, GroupsSumToThePictureOfEveryMethod) {
 
 TEST_F(LightLayers, AGroupIsThePictureOfItsLightsAlone) {
   for (const std::string method : {"--lights path --spp 64", "--lights light --spp 128",
-                                   "--lights glossy --spp 16 --num-lights 128"}) {
+                                   "--lights glossy --spp 16 --num-lights 128",
+                                   "--lights vpl --spp 64 --num-lights 128 --compensate",
+                                   "--lights photon --spp 16 --num-lights 20000"}) {
     const Film all = render("all.xml", method + " --aov groups");
     const Film alone = render("panel.xml", method);
     const double expected = meanOf(alone, "");

@@ -92,11 +92,18 @@ Film BenchScene::pathTraced(int spp, uint64_t seed) {
 
 Film BenchScene::virtualLights(const std::string& model, const std::string& clamp,
                                uint64_t lightCount, int spp, uint64_t seed) {
+  const auto change = [&](RenderOptions& options) {
+    options.lights = model;
+    options.clamp = clamp;
+    options.lightCount = lightCount;
+    options.spp = spp;
+  };
+  return virtualLights(change, seed);
+}
+
+Film BenchScene::virtualLights(const std::function<void(RenderOptions&)>& change, uint64_t seed) {
   RenderOptions options = options_;
-  options.lights = model;
-  options.clamp = clamp;
-  options.lightCount = lightCount;
-  options.spp = spp;
+  change(options);
   return render(seed, [&](Film& film) {
     renderVirtualLights(tracer_, emitters_, camera_, pixels_, maxDepth_, options, film, context_);
   });

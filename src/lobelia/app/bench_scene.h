@@ -30,6 +30,9 @@ class BenchScene {
   Film virtualLights(const std::string& model, const std::string& clamp, uint64_t lightCount,
                      int spp, uint64_t seed);
 
+  // By virtual lights, one set, with options as `change` leaves them.
+  Film virtualLights(const std::function<void(RenderOptions&)>& change, uint64_t seed);
+
   double mean(const Film& film) const;  // over the pixels and channels
   float radius() const { return tracer_.bounds().radius(); }
   const std::string& name() const { return name_; }

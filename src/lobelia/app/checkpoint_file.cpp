@@ -120,6 +120,10 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
   s.emplace_back("--passes", std::to_string(o.passes));
   s.emplace_back("--direct", o.direct);
   s.emplace_back("--clamp", o.clamp);
+  s.emplace_back("--compensate", o.compensate ? "yes" : "no");
+  s.emplace_back("--photons-nearest", std::to_string(o.photonsNearest));
+  s.emplace_back("--photon-radius", fmt::format("{}", o.photonRadius));
+  s.emplace_back("--gather-rays", std::to_string(o.gatherRays));
   s.emplace_back("--save-lights", o.saveLights.empty() ? "no" : "yes");  // one set of lights
   s.emplace_back("--load-lights", hashOf(o.loadLights));
   return identity;

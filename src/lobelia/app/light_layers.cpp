@@ -36,7 +36,8 @@ Component componentOf(const RenderOptions& options) {
 }
 
 void requireLightLayers(const RenderOptions& options) {
-  const bool virtualLights = options.lights != "path" && options.lights != "light";
+  const bool virtualLights =
+      options.lights != "path" && options.lights != "light" && options.lights != "photon";
   if (!virtualLights && asked(options, "types")) {
     throw UsageError(fmt::format(
         "--aov types takes virtual lights apart and --lights {} has none; use vpl or glossy",

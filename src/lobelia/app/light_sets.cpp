@@ -8,6 +8,8 @@
 namespace lobelia::app {
 namespace {
 
+constexpr size_t kDefaultLights = 512, kDefaultPhotons = 200'000;
+
 // Moves all but the first n, which are copied; a set may fill most of the memory.
 template <class Light>
 void splitAt(size_t n, std::vector<Light>& lights, std::vector<Light>& first,
@@ -86,12 +88,14 @@ SphereShading sphereShadingOf(const RenderOptions& options) {
   return shading;
 }
 
-// Default clamp of `vpl`: the geometry term of a light nearer than a twentieth of the scene's
-// radius, the customary cure of its spikes.
+// Default clamp of `vpl` and of what gets compensated: the geometry term of a light nearer than a
+// twentieth of the scene's radius, the customary cure of its spikes.
 float clampValue(const RenderOptions& options, float sceneRadius) {
   if (options.clamp == "off") return 0;
   if (options.clamp.empty()) {
-    return options.lights == "vpl" ? kInvPi / sqr(0.05f * std::max(sceneRadius, 1e-6f)) : 0;
+    return options.lights == "vpl" || options.compensate
+               ? kInvPi / sqr(0.05f * std::max(sceneRadius, 1e-6f))
+               : 0;
   }
   float value = 0;
   const char* end = options.clamp.data() + options.clamp.size();
@@ -103,10 +107,11 @@ float clampValue(const RenderOptions& options, float sceneRadius) {
   return value;
 }
 
-VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
-                           int set, const RenderOptions& options, Context& context) {
+LightSettings lightSettings(const RenderOptions& options, int maxDepth, int set) {
   LightSettings settings;
-  settings.count = options.lightCount;
+  settings.count = options.lightCount > 0       ? options.lightCount
+                   : options.lights == "photon" ? kDefaultPhotons
+                                                : kDefaultLights;
   settings.set = static_cast<uint32_t>(set);
   settings.maxDepth = maxDepth;
   settings.specularLimit = options.specularLimit;
@@ -118,6 +123,12 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
   settings.radiusFactor = options.radius;
   settings.radiusScale = progressiveRadiusScale(set);
   settings.sphereShading = sphereShadingOf(options);
+  return settings;
+}
+
+VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
+                           int set, const RenderOptions& options, Context& context) {
+  const LightSettings settings = lightSettings(options, maxDepth, set);
   if (!options.loadLights.empty()) {
     const StageTimer timer(context, "lights");  // as makeLights() books its own seconds
     VirtualLights lights = loadLights(options.loadLights, hash(tracer.scene()));

@@ -22,6 +22,7 @@ struct LightCounts {
 };
 LightCounts countLights(const VirtualLights& lights);
 
+LightSettings lightSettings(const RenderOptions& options, int maxDepth, int set);
 VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
                            int set, const RenderOptions& options, Context& context);
 LightParts splitLights(VirtualLights lights);

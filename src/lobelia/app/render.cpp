@@ -9,6 +9,7 @@
 #include "lobelia/app/light_reduction.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/methods.h"
+#include "lobelia/app/own_light.h"
 #include "lobelia/app/render_frame.h"
 #include "lobelia/app/replay.h"
 #include "lobelia/app/signals.h"
@@ -21,7 +22,7 @@ void requireLightFiles(const RenderOptions& options) {
   for (const auto& [name, file] : {std::pair{"--save-lights", options.saveLights},
                                    std::pair{"--load-lights", options.loadLights}}) {
     if (file.empty()) continue;
-    if (!usesVirtualLights(options)) {
+    if (!usesVirtualLights(options) || options.lights == "photon") {
       throw UsageError(fmt::format("{}: --lights {} has no virtual lights; use vpl or glossy", name,
                                    options.lights));
     }
@@ -68,6 +69,7 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
   requireLightFiles(options);
   requireLightLayers(options);
   requireReduction(options);
+  requireOwnLight(options);
   requireFrames(options);
   requireReplay(options);
   if (!options.display.empty()) parseViewerAddress(options.display);

@@ -106,10 +106,10 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "1: emission only, 2: direct light, ...; default: the scene's, else unlimited")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 20));
-  c.add_option("--num-lights", o.lightCount, "Virtual lights aimed at, per set")
+  c.add_option("--num-lights", o.lightCount,
+               "Virtual lights, or photons, aimed at, per set; default: 512 (photon: 200000)")
       ->type_name("N")
-      ->check(integerRange(1, int64_t{1} << 31))
-      ->capture_default_str();
+      ->check(integerRange(1, int64_t{1} << 31));
   c.add_option("--passes", o.passes,
                "Independent sets of lights, among which the samples are shared out; default: a set "
                "per sample (one set with --save-lights, --load-lights)")
@@ -179,9 +179,25 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->check(finiteNumber(0, 1))
       ->capture_default_str();
   c.add_option("--clamp", o.clamp,
-               "Upper limit of geometry term times lobes, or off; default: off (vpl: 127/R^2, R "
-               "the scene's radius)")
+               "Upper limit of geometry term times lobes, or off; default: off (vpl, and with "
+               "--compensate: 127/R^2, R the scene's radius)")
       ->type_name("X");
+  c.add_flag("--compensate", o.compensate,
+             "With vpl and glossy lights: path-trace what clamp and lights leave out");
+  c.add_option("--photons-nearest", o.photonsNearest,
+               "With --lights photon: photons looked up where a receiver's ray ends")
+      ->type_name("K")
+      ->check(integerRange(1, 1'000'000))
+      ->capture_default_str();
+  c.add_option("--photon-radius", o.photonRadius,
+               "With --lights photon: how far away they are at most; default: a tenth of the "
+               "scene's radius")
+      ->type_name("X")
+      ->check(finiteNumber(0, HUGE_VAL, false));
+  c.add_option("--gather-rays", o.gatherRays, "With --lights photon: rays of a receiver per sample")
+      ->type_name("N")
+      ->check(integerRange(1, 1 << 16))
+      ->capture_default_str();
   c.add_option("--component", o.component, "Which light: all, direct or indirect")
       ->type_name("PART")
       ->check(CLI::IsMember({"all", "direct", "indirect"}))

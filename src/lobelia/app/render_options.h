@@ -34,7 +34,10 @@ struct RenderOptions {
   std::optional<uint64_t> pixelsSeed;
   int passes = 0;    // independent light sets; 0: one per sample, unless lights are saved or loaded
   int maxDepth = 0;  // 0: the scene's
-  uint64_t lightCount = 512, environmentLights = 1024;
+  uint64_t lightCount = 0, environmentLights = 1024;  // lightCount 0: the model's default
+  uint64_t photonsNearest = 50;
+  double photonRadius = 0;  // 0: a tenth of the scene's
+  int gatherRays = 4;       // of --lights photon
   size_t rows = 0, columns = 0;  // of --gather mrcs; 0: the method's default
   double error = 0;              // relative error aimed at; 0: the method's default
   std::string sketch;            // numbers kept of each column, "off"; "": the method's default
@@ -46,6 +49,7 @@ struct RenderOptions {
   int sphereSamples = 16;
   float specularLimit = 0.08f;
   std::string clamp;  // "": the method's default
+  bool compensate = false;
   std::string component = "all";
   uint64_t seed = 0;
   double timeLimit = 0;

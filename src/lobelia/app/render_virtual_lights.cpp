@@ -5,6 +5,7 @@
 
 #include "lobelia/app/band_plan.h"
 #include "lobelia/app/light_layers.h"
+#include "lobelia/app/own_light.h"
 #include "lobelia/app/preview_rows.h"
 #include "lobelia/app/sampled_film.h"
 #include "lobelia/bsdf/lobe_kind.h"
@@ -29,11 +30,18 @@ class VirtualLightRender {
         checkpoints_(checkpoints),
         preview_(preview),
         context_(context) {
-    VirtualLights lights = firstSet != nullptr && *firstSet
-                               ? **firstSet
-                               : obtainLights(tracer, emitters, maxDepth, 0, options, context);
+    photons_ = obtainPhotons(tracer, emitters, maxDepth, 0, options, context);
+    VirtualLights lights;
+    if (!photons_)
+      lights = firstSet != nullptr && *firstSet
+                   ? **firstSet
+                   : obtainLights(tracer, emitters, maxDepth, 0, options, context);
     if (firstSet != nullptr && !*firstSet) *firstSet = lights;
     report_.lights = countLights(lights);
+    if (photons_) {
+      report_.photons = photons_->photons().size();
+      report_.lights.particles = context.statistics.count("light_particles");
+    }
     plan_ =
         planBands(tracer, pixels, maxDepth, gatheredLights(lights.size(), options), options, film);
     first_ = splitLights(std::move(lights));
@@ -72,10 +80,14 @@ class VirtualLightRender {
 
   void useLights(int set) {
     if (set == ready_) return;
-    LightParts parts =
-        set == 0 && first_
-            ? std::move(*first_)
-            : splitLights(obtainLights(tracer_, emitters_, maxDepth_, set, options_, context_));
+    LightParts parts;
+    if (set == 0 && first_) {
+      parts = std::move(*first_);
+    } else {
+      photons_ = obtainPhotons(tracer_, emitters_, maxDepth_, set, options_, context_);
+      if (!photons_)
+        parts = splitLights(obtainLights(tracer_, emitters_, maxDepth_, set, options_, context_));
+    }
     first_.reset();
     if (context_.cancelled()) return;
     parts = reduceParts(tracer_, emitters_, camera_, plan_, set, std::move(parts), options_,
@@ -123,6 +135,10 @@ class VirtualLightRender {
     backup_->take(y0, y1);
     Receivers receivers =
         traceReceivers(tracer_, emitters_, camera_, plan_.eye, y0, y1, film_, context_);
+    if (!context_.cancelled()) {
+      addOwnLight({tracer_, emitters_, photons_.get(), plan_, maxDepth_, options_}, receivers,
+                  film_, &*layers_, context_);
+    }
     if (context_.cancelled()) {
       backup_->restore(y0, y1);
       return {};
@@ -268,6 +284,7 @@ class VirtualLightRender {
   int ready_ = -1;                   // whose lights parts_ holds
   std::optional<LightParts> first_;  // the first set until it is used
   LightParts parts_;
+  std::unique_ptr<PhotonMap> photons_;  // --lights photon, in the place of lights
   BandPlan plan_;
   Position at_;
   std::vector<int> rowSamples_;

@@ -5,6 +5,7 @@
 #include "lobelia/app/band_plan.h"
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/light_reduction.h"
+#include "lobelia/app/own_light.h"
 #include "lobelia/app/replay_text.h"
 #include "lobelia/app/sampled_film.h"
 
@@ -66,6 +67,8 @@ class LightReplay {
 
  private:
   VirtualLights obtain(int set) {
+    photons_ = obtainPhotons(run_.tracer, run_.emitters, maxDepth_, set, options_, context_);
+    if (photons_) return {};
     return obtainLights(run_.tracer, run_.emitters, maxDepth_, set, options_, context_);
   }
   void useLights(int set, VirtualLights lights) {
@@ -83,14 +86,35 @@ class LightReplay {
         traceReceivers(run_.tracer, run_.emitters, camera_, plan_.eye, y0, y1, film_, context_);
     const bool shown = all_ || sample < kReplaySamples;
     if (shown) {
-      fmt::print("sample {}  of light set {} ({} lights)\n  eye pass: direct {}  indirect {}\n",
-                 sample, set_, lightCount_, text(film_.rgb(pixel_, "direct") - direct),
+      fmt::print("sample {}  of light set {} ({})\n  eye pass: direct {}  indirect {}\n", sample,
+                 set_, lightsText(), text(film_.rgb(pixel_, "direct") - direct),
                  text(film_.rgb(pixel_, "indirect") - indirect));
     }
+    addOwn(receivers, shown);
+    if (photons_) return;
     const size_t points = receivers.points.size(), length = runLength(parts_.size());
     for (size_t begin = 0; begin < points; begin += length) {
       const size_t end = std::min(begin + length, points);
       gatherRun(begin == 0 && end == points ? receivers : slice(receivers, begin, end), shown);
+    }
+  }
+
+  std::string lightsText() const {
+    return photons_ ? fmt::format("{} photons", photons_->photons().size())
+                    : fmt::format("{} lights", lightCount_);
+  }
+
+  // What receivers find by rays of their own.
+  void addOwn(const Receivers& receivers, bool shown) {
+    const std::vector<Rgb> light =
+        addOwnLight({run_.tracer, run_.emitters, photons_.get(), plan_, maxDepth_, options_},
+                    receivers, film_, nullptr, context_);
+    for (size_t i = 0; i < light.size() && shown; ++i) {
+      const ReceiverPoint& point = receivers.points[i];
+      if (point.pixel != pixel_) continue;
+      fmt::print("  receiver at {}  depth {}  lobes {}  weight {}\n    {}: indirect {}\n",
+                 place(point.p), point.depth, point.lobeCount, text(point.weight),
+                 photons_ ? "final gathering" : "compensation", text(light[i]));
     }
   }
 
@@ -177,6 +201,7 @@ class LightReplay {
   BandPlan plan_;
   GatherSettings gather_;  // of this pixel alone
   LightParts parts_;
+  std::unique_ptr<PhotonMap> photons_;  // --lights photon, in the place of lights
   size_t lightCount_ = 0;
   int set_ = 0;
 };

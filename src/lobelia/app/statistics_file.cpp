@@ -23,8 +23,9 @@ double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
 Json secondsJson(const Statistics& statistics) {
   Json out;
-  for (const char* stage : {"load", "accel", "receivers", "lights", "trees", "traverse", "rows",
-                            "cluster", "visibility", "shade", "trace", "total"}) {
+  for (const char* stage :
+       {"load", "accel", "receivers", "lights", "trees", "traverse", "rows", "cluster",
+        "visibility", "shade", "compensate", "final_gather", "trace", "total"}) {
     out[stage] = statistics.seconds(stage);
   }
   return out;
@@ -36,7 +37,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                      const Film& film, const VirtualLightReport& report, const Context& context) {
   const Statistics& s = context.statistics;
   const LightCounts& lights = report.lights;
-  const bool virtualLights = options.lights != "path" && options.lights != "light";
+  const bool gathers =
+      options.lights != "path" && options.lights != "light" && options.lights != "photon";
   size_t pixels = film.pixelCount();
   if (!film.alpha.empty()) {
     pixels = static_cast<size_t>(std::count(film.alpha.begin(), film.alpha.end(), 1.f));
@@ -60,9 +62,10 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"glossy", countOf(gather::LightClass::glossy)},
                     {"spherical", countOf(gather::LightClass::spherical)},
                     {"vsgl", 0},
+                    {"photons", report.photons},
                     {"particles", lights.particles},
                     {"sets", report.sets}};
-  json["gather"] = {{"strategy", virtualLights ? options.gather : "none"},
+  json["gather"] = {{"strategy", gathers ? options.gather : "none"},
                     {"mode", ""},
                     {"bound", ""},
                     {"threshold", 0},

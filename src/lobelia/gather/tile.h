@@ -82,7 +82,5 @@ inline constexpr size_t kMaxTilePoints = 256;
 Tile makeTile(const Receivers& receivers, size_t begin, size_t end);
 // Adds what spherical lights need. The tile keeps a reference to the receivers.
 void addSampling(const Receivers& receivers, Tile* tile);
-// A receiver's rough lobes as a BSDF.
-Bsdf receiverBsdf(const Receivers& receivers, const ReceiverPoint& point);
 
 }  // namespace lobelia::gather

@@ -22,21 +22,6 @@ void setRandom(const ReceiverPoint& point, size_t lane, SamplingStrip* strip) {
 
 }  // namespace
 
-Bsdf receiverBsdf(const Receivers& receivers, const ReceiverPoint& point) {
-  Bsdf bsdf;
-  bsdf.frames[0] = point.frame;
-  bsdf.frames[0].bumpAlpha2 = point.bumpAlpha2;
-  bsdf.frames[0].perturbed = point.bumpAlpha2 > 0;
-  bsdf.baseNormal = point.bumpAlpha2 > 0 ? point.baseNormal : point.frame.n;
-  bsdf.ng = point.ng;
-  for (size_t l = 0; l < point.lobeCount; ++l) {
-    Lobe lobe = receivers.lobes[point.firstLobe + l];
-    lobe.frame = 0;
-    bsdf.add(lobe);
-  }
-  return bsdf;
-}
-
 void addSampling(const Receivers& receivers, Tile* tile) {
   tile->receivers = &receivers;
   tile->sampling.resize(tile->strips.size());

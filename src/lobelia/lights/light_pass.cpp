@@ -112,6 +112,18 @@ std::vector<uint32_t> sortByDepth(const std::vector<ParticleBatch>& batches, con
   return ends;
 }
 
+void countParticles(const std::vector<ParticleBatch>& batches, Context& context) {
+  ParticleBatch total;
+  for (const ParticleBatch& b : batches) {
+    total.rays += b.rays, total.cut += b.cut;
+    total.dropped += b.dropped, total.nonFinite += b.nonFinite;
+  }
+  context.statistics.addCount("path_rays", total.rays);
+  context.statistics.addCount("paths_cut", total.cut);
+  context.statistics.addCount("lights_dropped", total.dropped);
+  context.statistics.addCount("nonfinite", total.nonFinite);
+}
+
 void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, Context& context) {
   lights->diffuseDepthEnds = sortByDepth(
       batches, [](const ParticleBatch& b) -> auto& { return b.diffuse; },
@@ -128,15 +140,7 @@ void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, C
       batches, [](const ParticleBatch& b) -> auto& { return b.spherical; },
       [](const ParticleBatch& b, size_t i) -> size_t { return b.spherical[i].depth; },
       &lights->spherical);
-  ParticleBatch total;
-  for (const ParticleBatch& b : batches) {
-    total.rays += b.rays, total.cut += b.cut;
-    total.dropped += b.dropped, total.nonFinite += b.nonFinite;
-  }
-  context.statistics.addCount("path_rays", total.rays);
-  context.statistics.addCount("paths_cut", total.cut);
-  context.statistics.addCount("lights_dropped", total.dropped);
-  context.statistics.addCount("nonfinite", total.nonFinite);
+  countParticles(batches, context);
 }
 
 // Emitters without an area, as lights of depth 0 (area emitters: ParticleWalk::leaveOnEmitter).
@@ -197,6 +201,28 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
                             particles, lights.diffuse.size(), lights.glossy.size(),
                             lights.spherical.size()));
   return lights;
+}
+
+std::vector<Photon> makePhotons(const Tracer& tracer, const EmitterSampler& emitters,
+                                const LightSettings& wanted, Context& context) {
+  const StageTimer timer(context, "lights");
+  LightSettings settings = wanted;
+  settings.photons = true, settings.directAsLights = false;
+  std::vector<Photon> photons;
+  if (emitters.empty() || settings.count == 0 || (settings.maxDepth >= 0 && settings.maxDepth < 3))
+    return photons;
+  const uint64_t particles = chooseParticleCount(tracer, emitters, settings, context);
+  const float scale = static_cast<float>(1.0 / static_cast<double>(particles));
+  const ParticleWalk walk(tracer, emitters, settings, seedOf(settings, context), kStream, scale);
+  const std::vector<ParticleBatch> batches = traceParticles(walk, particles, context, true);
+  for (const ParticleBatch& b : batches)
+    photons.insert(photons.end(), b.photons.begin(), b.photons.end());
+  countParticles(batches, context);
+  context.statistics.addCount("light_particles", particles);
+  context.statistics.addCount("photons", photons.size());
+  if (photons.empty() && !context.cancelled())
+    context.warning("no particle met a surface with rough lobes: there is no indirect light");
+  return photons;
 }
 
 }  // namespace lobelia

@@ -1,6 +1,7 @@
 // Particle pass: virtual lights from every emitter.
 #pragma once
 
+#include "lobelia/lights/photon.h"
 #include "lobelia/lights/virtual_lights.h"
 #include "lobelia/path/emitter_sampling.h"
 
@@ -24,6 +25,7 @@ struct LightSettings {
   // direct light is sampled at the receivers. 0: as many as give a good image.
   size_t environmentLights = 0;
   int gaussiansPerLobe = 24;   // of the expansion of a BSDF (bsdf/gaussians.h); 1: the paper's form
+  bool photons = false;  // for makePhotons(), which sets it: particles leave these instead of lights
   bool everyGaussian = false;  // true: all of them become lights; false: one is drawn per vertex
   // Spherical lights: radius over the distance of the tenth neighbour; 0: chosen automatically
   // (spherical_radius.h). radiusScale multiplies either (progressive rendering).
@@ -36,6 +38,11 @@ struct LightSettings {
 // "lights_dropped" (no power) and "nonfinite"; books seconds to "lights".
 VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
                          const LightSettings& settings, Context& context);
+
+// Photons: what particles bring to surfaces with rough lobes, settings.count about. Emitters and what
+// lobes make of it are not theirs. Statistics as makeLights() has them, and "photons".
+std::vector<Photon> makePhotons(const Tracer& tracer, const EmitterSampler& emitters,
+                                const LightSettings& settings, Context& context);
 
 // Directional lights that stand for an environment: structured importance sampling (Agarwal et al.
 // 2003): strata of about equal energy x (solid angle)^(1/4), each light the energy of its stratum.

@@ -32,6 +32,12 @@ float energyOf(const GaussianLobe& lobe) {
 
 }  // namespace
 
+float geometricRatio(const GaussianLobe& lobe, Vec3f n) {
+  const float ratio =
+      std::abs(dot(lobe.axis, n)) / std::max(1e-6f, std::abs(dot(lobe.axis, lobe.normal)));
+  return std::clamp(ratio, 0.5f, 2.f);
+}
+
 ParticleWalk::ParticleWalk(const Tracer& tracer, const EmitterSampler& emitters,
                            const LightSettings& settings, uint64_t seed, uint64_t stream,
                            float scale)
@@ -66,7 +72,9 @@ void ParticleWalk::trace(uint32_t particle, ParticleBatch* out) const {
     power *= interiorTransmittance(emitters_.scene(), at, wi);
     const Bsdf bsdf = makeBsdf(emitters_.scene(), at, wi, settings_.specularLimit);
     const float uGaussian = random.next1D();
-    if (hasLobes(bsdf, LobeSet::rough))
+    const bool rough = hasLobes(bsdf, LobeSet::rough);
+    if (rough && settings_.photons) leavePhoton(at, wi, power, {depth, group}, out);
+    if (rough && !settings_.photons)
       leaveLights(*hit, at, bsdf, wi, power, {depth, group}, uGaussian, out);
 
     const float uLobe = random.next1D();
@@ -89,6 +97,17 @@ void ParticleWalk::trace(uint32_t particle, ParticleBatch* out) const {
     if (!(uRoulette < survival)) return;
     power /= survival;
     ray = {offsetOrigin(at, scattered->wi), scattered->wi};
+  }
+}
+
+void ParticleWalk::leavePhoton(const SurfacePoint& at, Vec3f wi, Rgb power, Place place,
+                               ParticleBatch* out) const {
+  if (!isFinite(at.p) || !isFinite(at.ng) || !isFinite(wi)) {
+    ++out->nonFinite;
+  } else if (maxComponent(power) > 0) {
+    out->photons.push_back(
+        {at.p, power, encodeOctahedral(wi), encodeOctahedral(at.ng),
+         static_cast<uint32_t>(place.depth) | static_cast<uint32_t>(place.group) << 8});
   }
 }
 
@@ -164,9 +183,7 @@ void ParticleWalk::addDiffuse(Vec3f p, Vec3f n, Rgb intensity, Place place,
 void ParticleWalk::addGlossy(const SurfacePoint& at, const Bsdf& bsdf, const GaussianLobe& lobe,
                              Rgb power, Place place, ParticleBatch* out) const {
   const Vec3f n = dot(bsdf.ng, lobe.normal) > 0 ? bsdf.ng : -bsdf.ng;
-  const float ratio =
-      std::abs(dot(lobe.axis, n)) / std::max(1e-6f, std::abs(dot(lobe.axis, lobe.normal)));
-  const Rgb intensity = power * lobe.amplitude * std::clamp(ratio, 0.5f, 2.f);
+  const Rgb intensity = power * lobe.amplitude * geometricRatio(lobe, n);
   const GlossyLight light{offsetOrigin(at, n), n, lobe.axis, intensity, lobe.sharpness};
   if (!isFinite(light.p) || !isFinite(light.axis) || !isFinite(intensity) ||
       !(lobe.sharpness >= 0) || !std::isfinite(lobe.sharpness)) {

@@ -12,6 +12,10 @@ namespace lobelia {
 // No path is longer, whatever the settings: a record holds its depth in 8 bits.
 inline constexpr int kMaxLightDepth = 250;
 
+// What a Gaussian's intensity is multiplied by, since it leaves the surface by the geometric normal
+// n on its side: the head of particle_walk.cpp says why.
+float geometricRatio(const GaussianLobe& lobe, Vec3f n);
+
 // What a range of particles leaves, in the order of the particles.
 struct ParticleBatch {
   std::vector<DiffuseLight> diffuse;
@@ -19,7 +23,10 @@ struct ParticleBatch {
   std::vector<uint8_t> glossyDepth;  // parallel to glossy; diffuse lights carry theirs
   std::vector<uint16_t> glossyGroup;
   std::vector<SphericalLight> spherical;
-  size_t lightCount() const { return diffuse.size() + glossy.size() + spherical.size(); }
+  std::vector<Photon> photons;
+  size_t lightCount() const {
+    return diffuse.size() + glossy.size() + spherical.size() + photons.size();
+  }
   uint64_t rays = 0, cut = 0, dropped = 0, nonFinite = 0;
 };
 
@@ -41,6 +48,8 @@ class ParticleWalk {
   static uint32_t tagOf(Place place) {
     return static_cast<uint32_t>(place.depth) | static_cast<uint32_t>(place.group) << 8;
   }
+  void leavePhoton(const SurfacePoint& at, Vec3f wi, Rgb power, Place place,
+                   ParticleBatch* out) const;
   void leaveOnEmitter(const EmittedRay& emitted, Rgb power, ParticleBatch* out) const;
   void leaveLights(const Hit& hit, const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power,
                    Place place, float u, ParticleBatch* out) const;

@@ -126,6 +126,17 @@ Receivers concatenate(std::vector<Tile>& tiles) {
 
 }  // namespace
 
+Bsdf receiverBsdf(const Receivers& receivers, const ReceiverPoint& point) {
+  Bsdf bsdf;
+  bsdf.frames[0] = point.frame;
+  bsdf.frames[0].perturbed = point.bumpAlpha2 > 0;
+  bsdf.frames[0].bumpAlpha2 = point.bumpAlpha2;
+  bsdf.ng = point.ng;
+  bsdf.baseNormal = point.bumpAlpha2 > 0 ? point.baseNormal : point.frame.n;
+  for (uint32_t i = 0; i < point.lobeCount; ++i) bsdf.add(receivers.lobes[point.firstLobe + i]);
+  return bsdf;
+}
+
 Receivers traceReceivers(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                          const EyeSettings& settings, int y0, int y1, Film& film,
                          Context& context) {

@@ -5,6 +5,7 @@
 // follows them to an emitter (a specular connection) or to a further receiver of the same pixel.
 #pragma once
 
+#include "lobelia/bsdf/lobe.h"
 #include "lobelia/path/path_tracer.h"
 
 namespace lobelia {
@@ -30,6 +31,9 @@ struct Receivers {
   std::vector<ReceiverPoint> points;  // in tile order: neighbours in the array are near on screen
   std::vector<Lobe> lobes;
 };
+
+// The rough lobes of a point as a BSDF: their sum is what the point scatters to its wo.
+Bsdf receiverBsdf(const Receivers& receivers, const ReceiverPoint& point);
 
 struct EyeSettings {
   int sample = 0;       // index of the sample of each pixel

@@ -1,0 +1,178 @@
+// Clamped lights plus compensation against the path tracer, for materials and surfaces of all
+// kinds: means of the indirect light over independent runs.
+#include "lobelia/gather/compensation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/test_scenes.h"
+
+namespace lobelia {
+namespace {
+
+struct Mean {
+  double value = 0, error = 0;  // standard error
+};
+Mean meanOf(const std::vector<double>& runs) {
+  const double n = static_cast<double>(runs.size());
+  double sum = 0, squares = 0;
+  for (const double v : runs) sum += v;
+  for (const double v : runs) squares += (v - sum / n) * (v - sum / n);
+  return {sum / n, std::sqrt(squares / (n * (n - 1)))};
+}
+
+constexpr uint64_t kRuns = 16;
+
+struct Setting {
+  bool glossy = true;
+  float clamp = 0.3f;
+  int maxDepth = -1;
+};
+
+class Trial {
+ public:
+  explicit Trial(Scene scene) : scene_(std::move(scene)), tracer_(scene_, context_) {}
+
+  Mean path(int maxDepth) {
+    PathSettings settings;
+    settings.spp = 64;
+    settings.maxDepth = maxDepth;
+    std::vector<double> runs;
+    for (uint64_t run = 0; run < kRuns; ++run) {
+      context_.seed = 1000 + run;
+      Film film = test::filmFor(camera(), {"direct", "indirect"});
+      renderPath(tracer_, emitters_, camera(), settings, film, context_);
+      runs.push_back(sum(film));
+    }
+    return meanOf(runs);
+  }
+
+  Mean lights(const Setting& setting, bool compensated) {
+    std::vector<double> runs;
+    for (uint64_t run = 0; run < kRuns; ++run) {
+      context_.seed = run;
+      runs.push_back(lightsOnce(setting, compensated));
+    }
+    return meanOf(runs);
+  }
+
+ private:
+  const Camera& camera() const { return scene_.cameras[0]; }
+  static double sum(const Film& film) {
+    double out = 0;
+    for (const float v : film.layers.at("indirect").values) out += double{v};
+    return out / static_cast<double>(film.pixelCount());
+  }
+
+  double lightsOnce(const Setting& setting, bool compensated) {
+    LightSettings lightSettings;
+    lightSettings.count = 1000;
+    lightSettings.kind = setting.glossy ? LightKind::glossy : LightKind::diffuse;
+    lightSettings.maxDepth = setting.maxDepth;
+    const VirtualLights lights = makeLights(tracer_, emitters_, lightSettings, context_);
+    Film film = test::filmFor(camera(), {"direct", "indirect"});
+    EyeSettings eye;
+    eye.sampleCount = 8;
+    eye.maxDepth = setting.maxDepth;
+    GatherSettings gather;
+    gather.clamp = setting.clamp;
+    gather.maxDepth = setting.maxDepth;
+    CompensationSettings compensation;
+    compensation.rays.width = camera().width;
+    compensation.clamp = setting.clamp;
+    compensation.glossy = setting.glossy;
+    compensation.maxDepth = setting.maxDepth;
+    double gathered = 0;
+    for (eye.sample = 0; eye.sample < eye.sampleCount; ++eye.sample) {
+      const Receivers receivers =
+          traceReceivers(tracer_, emitters_, camera(), eye, 0, camera().height, film, context_);
+      std::vector<Rgb> radiance(receivers.points.size());
+      gatherAll(tracer_, receivers, lights, gather, radiance, context_);
+      compensation.rays.sample = eye.sample;
+      if (compensated) compensate(tracer_, emitters_, receivers, compensation, radiance, context_);
+      for (const Rgb v : radiance) gathered += double{v.x} + double{v.y} + double{v.z};
+    }
+    return sum(film) + gathered / static_cast<double>(film.pixelCount());
+  }
+
+  Context context_;
+  Scene scene_;
+  Tracer tracer_;
+  EmitterSampler emitters_{scene_, tracer_.bounds()};
+};
+
+Material material(MaterialType type, float alpha) {
+  Material m;
+  m.type = type;
+  m.diffuse = Rgb(0.6f, 0.5f, 0.4f);
+  m.specular = Rgb(0.8f);
+  m.ior = 1.6f;
+  m.alphaU = m.alphaV = alpha;
+  return m;
+}
+
+// A box with two coarse smooth-shaded balls and a floor of the given materials.
+Scene roomWith(const Material& ball, const Material& floor) {
+  Scene scene = test::boxScene();
+  const MaterialHandle handle = test::addMaterial(scene, ball);
+  test::addSphere(scene, {-0.4f, -0.5f, 0.3f}, 0.4f, handle, {}, 8);
+  test::addSphere(scene, {0.5f, -0.3f, 0.2f}, 0.35f, handle, {}, 8);
+  scene.instances[test::floorWall].material = test::addMaterial(scene, floor);
+  return scene;
+}
+
+void expectUnbiased(Scene scene, const Setting& setting, const char* name) {
+  SCOPED_TRACE(name);
+  Trial trial(std::move(scene));
+  const Mean truth = trial.path(setting.maxDepth), without = trial.lights(setting, false),
+             with = trial.lights(setting, true);
+  const double error = std::hypot(truth.error, with.error);
+  testing::Test::RecordProperty(name, std::to_string(without.value / truth.value) + " " +
+                                          std::to_string(with.value / truth.value) + " +- " +
+                                          std::to_string(error / truth.value));
+  EXPECT_LT(error, 0.02 * truth.value);
+  EXPECT_NEAR(with.value, truth.value, 4 * error);
+  EXPECT_GT(std::abs(without.value - truth.value), 6 * std::hypot(truth.error, without.error));
+}
+
+TEST(Compensation, DiffuseSurfacesWithShadingNormals) {
+  const Material matt = test::diffuseMaterial(Rgb(0.7f, 0.6f, 0.5f));
+  expectUnbiased(roomWith(matt, matt), {false, 0.1f, -1}, "vpl");
+  expectUnbiased(roomWith(matt, matt), {false, 0.1f, 4}, "vpl, four edges");
+}
+TEST(Compensation, Gloss) {
+  const Scene scene =
+      roomWith(material(MaterialType::roughPlastic, 0.2f), material(MaterialType::phong, 30));
+  expectUnbiased(scene, {true, 0.1f, -1}, "glossy");
+  expectUnbiased(scene, {false, 0.1f, 5}, "vpl, five edges");
+}
+// One sharp lobe and a rough base; a mirror.
+TEST(Compensation, BesideSharpLobes) {
+  const Scene scene = roomWith(material(MaterialType::roughPlastic, 0.03f),
+                               material(MaterialType::roughPlastic, 0.05f));
+  expectUnbiased(scene, {true, 0.05f, -1}, "glossy");
+}
+TEST(Compensation, Transmission) {
+  Material glass = material(MaterialType::roughDielectric, 0.3f);
+  glass.absorption = Rgb(0.5f, 1.f, 2.f);
+  Material leaf = material(MaterialType::diffuseTransmitter, 0);
+  leaf.transmittance = Rgb(0.4f);
+  expectUnbiased(roomWith(glass, leaf), {true, 0.1f, -1}, "glossy");
+  expectUnbiased(roomWith(leaf, glass), {false, 0.1f, -1}, "vpl");
+}
+TEST(Compensation, BumpsAndSheen) {
+  Scene scene = roomWith(material(MaterialType::principled, 0), test::diffuseMaterial(Rgb(0.5f)));
+  Material& ball = scene.materials[scene.instances.back().material.index];
+  ball.sheen = 1.f, ball.roughness = 0.4f;
+  Material bump;
+  bump.type = MaterialType::bump;
+  bump.a = scene.instances[test::floorWall].material;
+  bump.map = test::addRandomTexture(scene, 16, 0.f);
+  bump.scale = 0.05f;
+  scene.instances[test::backWall].material = test::addMaterial(scene, bump);
+  expectUnbiased(scene, {true, 0.1f, -1}, "glossy");
+}
+
+}  // namespace
+}  // namespace lobelia
