@@ -79,7 +79,7 @@ void requireReduction(const RenderOptions& options) {
   }
   if (reduces(options) && (options.lights == "path" || options.lights == "light")) {
     throw UsageError(fmt::format(
-        "--gather mrcs gathers virtual lights and --lights {} has none; use vpl or glossy",
+        "--gather mrcs gathers virtual lights and --lights {} has none; use vpl, glossy or vsl",
         options.lights));
   }
   if (reduces(options)) return;

@@ -17,6 +17,9 @@ const std::vector<LightModel>& lightModels() {
       {"light", "light tracing: particles connected to the camera (a check; blind to mirrors)", {}},
       {"vpl", "diffuse virtual point lights only, clamped by default", {"all", "mrcs"}},
       {"glossy", "diffuse and spherical-Gaussian lights", {"all", "mrcs"}},
+      {"vsl",
+       "virtual spherical lights: any material at both ends, no spikes, no clamp",
+       {"all", "mrcs"}},
   };
   return models;
 }

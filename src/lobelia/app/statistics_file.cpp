@@ -58,7 +58,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"directional", countOf(gather::LightClass::directional)},
                     {"diffuse", countOf(gather::LightClass::diffuse)},
                     {"glossy", countOf(gather::LightClass::glossy)},
-                    {"spherical", 0},
+                    {"spherical", countOf(gather::LightClass::spherical)},
                     {"vsgl", 0},
                     {"particles", lights.particles},
                     {"sets", report.sets}};

@@ -41,6 +41,7 @@ VirtualLights chooseLights(const VirtualLights& lights, std::span<const ChosenLi
   out.maxDepth = lights.maxDepth;
   out.specularLimit = lights.specularLimit;
   out.direct = lights.direct;
+  out.sphereShading = lights.sphereShading;
   for (const ChosenLight& choice : chosen) {
     switch (choice.lightClass) {
       case LightClass::omni:
@@ -58,10 +59,14 @@ VirtualLights chooseLights(const VirtualLights& lights, std::span<const ChosenLi
         take(lights.glossy, &lights.glossyGroups, &GlossyLight::intensity, choice, &out.glossy,
              &out.glossyGroups);
         break;
+      case LightClass::spherical:
+        take(lights.spherical, nullptr, &SphericalLight::power, choice, &out.spherical, nullptr);
+        break;
     }
   }
   out.diffuseDepthEnds = endsAmong(lights.diffuseDepthEnds, chosen, LightClass::diffuse);
   out.glossyDepthEnds = endsAmong(lights.glossyDepthEnds, chosen, LightClass::glossy);
+  out.sphericalDepthEnds = endsAmong(lights.sphericalDepthEnds, chosen, LightClass::spherical);
   return out;
 }
 

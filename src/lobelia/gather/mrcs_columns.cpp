@@ -56,6 +56,8 @@ class Maker {
     const size_t points = rows.receivers.points.size();
     for (size_t begin = 0; begin < points; begin += kMaxTilePoints)
       tiles_.push_back(makeTile(rows.receivers, begin, std::min(points, begin + kMaxTilePoints)));
+    if (!lights.spherical.empty())
+      for (Tile& tile : tiles_) addSampling(rows.receivers, &tile);
     if (settings.dims == 0) {
       out_.dims = padded(rowValues_);
       out_.checkDims = padded(values_ - rowValues_);

@@ -232,6 +232,10 @@ void sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, 
   }
 }
 
+// spherical-inl.h
+void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane,
+                    const g::LightBlock& block, PairScratch* pairs);
+
 inline LaneSums sinkFor(g::TileSums* sums, size_t, size_t, const g::PairMasks&) { return {sums}; }
 inline LaneValues sinkFor(g::PairValues* values, size_t s, size_t lane, const g::PairMasks& masks) {
   return {values, s * g::kStrip + lane, masks.strips * g::kStrip};
@@ -255,8 +259,12 @@ void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
         pairs.mask[pairs.count++] = bits;
       }
       if (pairs.count == 0) continue;
-      directions<kClass>(strip, lane, block, &pairs);
-      addLobes(tile, strip, lane, &pairs);
+      if constexpr (kClass == g::LightClass::spherical) {
+        sphericalPairs(tile, s, lane, block, &pairs);
+      } else {
+        directions<kClass>(strip, lane, block, &pairs);
+        addLobes(tile, strip, lane, &pairs);
+      }
       auto sink = sinkFor(out, s, lane, pairMasks);
       sumUp<kClass>(strip, lane, block, clamp, &pairs, &sink, out);
       sink.finish(s, lane);
