@@ -15,7 +15,7 @@ using test::ProgramResult;
 using test::runProgram;
 using test::TemporaryFolder;
 
-constexpr const char* kScene = "render cornell --detail 0.05 --component indirect --quiet ";
+constexpr const char* kScene = "render cornell --detail 0.05 --quiet ";
 
 class MrcsRender : public testing::Test {
  protected:
@@ -49,7 +49,7 @@ class MrcsRender : public testing::Test {
 };
 
 TEST_F(MrcsRender, ComesNearerToAllLightsWithMoreColumns) {
-  const std::string base = "--size 48x40 --spp 1 --num-lights 4000 --clamp 1 ";
+  const std::string base = "--size 48x40 --spp 1 --num-lights 4000 --clamp 1 --component indirect ";
   const Film all = render(base + "--gather all", "all");
   double before = 1;
   for (const int columns : {100, 400, 1600}) {
@@ -63,8 +63,8 @@ TEST_F(MrcsRender, ComesNearerToAllLightsWithMoreColumns) {
     EXPECT_EQ(gather["columns"], columns);
     EXPECT_EQ(gather["rows"], 1024);
     // Predicted from some pixels of one draw.
-    EXPECT_GT(gather["predicted_error"], error / 2.5);
-    EXPECT_LT(gather["predicted_error"], error * 2.5);
+    EXPECT_GT(gather["predicted_error"], error / 4);
+    EXPECT_LT(gather["predicted_error"], error * 4);
     EXPECT_GT(statistics(name)["counts"]["shadow_rays"], 48 * 40 * columns / 10);
   }
   EXPECT_LT(before, 0.03);
@@ -72,7 +72,8 @@ TEST_F(MrcsRender, ComesNearerToAllLightsWithMoreColumns) {
 }
 
 TEST_F(MrcsRender, ErrorDecidesTheColumns) {
-  const std::string base = "--size 48x40 --spp 1 --num-lights 4000 --clamp 1 --gather mrcs ";
+  const std::string base =
+      "--size 48x40 --spp 1 --num-lights 4000 --clamp 1 --component indirect --gather mrcs ";
   render(base + "--error 0.1", "a");
   render(base + "--error 0.03", "b");
   render(base + "--error 0.001 --columns 70", "c");
@@ -85,7 +86,7 @@ TEST_F(MrcsRender, ErrorDecidesTheColumns) {
 TEST_F(MrcsRender, PartsOfThePictureAndPassesHaveTheLightOfAll) {
   const std::string base = "--size 48x40 --spp 8 --num-lights 1000 --clamp 1 ";
   for (const char* part : {"--crop 10,8,40,32", "--pixels 700", "--passes 2", "--passes 8",
-                           "--direct lights --component all", "--max-depth 4"}) {
+                           "--direct lights", "--max-depth 4"}) {
     SCOPED_TRACE(part);
     const Film all = render(base + part + " --gather all", "all");
     const Film few = render(base + part + " --gather mrcs --columns 150 --rows 300", "few");
@@ -113,7 +114,8 @@ TEST_F(MrcsRender, ThreadsDoNotMatter) {
 
 TEST_F(MrcsRender, WrongUseSaysWhatWouldBeRight) {
   const auto expectError = [&](const std::string& options, const char* mentions) {
-    const ProgramResult r = runProgram(kScene + options + " -o " + (folder_ / "x.exr"));
+    const ProgramResult r =
+        runProgram(kScene + options + " --size 16x16 --spp 1 -o " + (folder_ / "x.exr"));
     EXPECT_EQ(r.exitCode, 2) << options;
     EXPECT_NE(r.err.find(mentions), std::string::npos) << r.err;
   };

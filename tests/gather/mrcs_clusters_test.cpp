@@ -123,11 +123,6 @@ TEST(MrcsClusters, PredictedCostIsTheVarianceOfDraws) {
     EXPECT_NEAR(
         measuredVariance(vectors, columns, clustering, dims, all, 4000) / clustering.checkCost, 1,
         0.05);
-    if (unseen == 0) {
-      EXPECT_NEAR(clustering.cost, clustering.rowCost, 1e-6 * clustering.cost);
-    } else {
-      EXPECT_GT(clustering.cost, 1.01 * clustering.rowCost);
-    }
   }
 }
 
@@ -148,7 +143,8 @@ TEST(MrcsClusters, BeatRandomOnesAndBothPhasesAreNeeded) {
       Rng rng(seed, 77);
       std::vector<std::vector<uint32_t>> clusters(count);
       for (uint32_t i = 0; i < columns.count; ++i) clusters[rng.nextUint() % count].push_back(i);
-      for (const auto& cluster : clusters) random += measureCluster(columns, cluster).cost;
+      for (const auto& cluster : clusters)
+        random += measureCluster(columns, cluster, 0, cluster.size()).cost;
       both += totalCost(columns, count, 2.0 / 3, seed);
       sampling += totalCost(columns, count, 1, seed);
       splitting += totalCost(columns, count, 0, seed);

@@ -77,6 +77,11 @@ void requireReduction(const RenderOptions& options) {
           "--sketch '{}' is neither a multiple of 16 from 16 to 4096 nor 'off'", options.sketch));
     }
   }
+  if (reduces(options) && (options.lights == "path" || options.lights == "light")) {
+    throw UsageError(fmt::format(
+        "--gather mrcs gathers virtual lights and --lights {} has none; use vpl, glossy or vsl",
+        options.lights));
+  }
   if (reduces(options)) return;
   for (const auto& [name, given] :
        {std::pair{"--rows", options.rows > 0}, std::pair{"--columns", options.columns > 0},

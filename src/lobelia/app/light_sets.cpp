@@ -57,10 +57,10 @@ LightParts splitLights(VirtualLights lights) {
   splitAt(emitterLights(lights.glossyDepthEnds), lights.glossy, direct.glossy, indirect.glossy);
   splitAt(emitterLights(lights.glossyDepthEnds), lights.glossyGroups, direct.glossyGroups,
           indirect.glossyGroups);
-  splitEnds(lights.diffuseDepthEnds, direct.diffuseDepthEnds, indirect.diffuseDepthEnds);
-  splitEnds(lights.glossyDepthEnds, direct.glossyDepthEnds, indirect.glossyDepthEnds);
   splitAt(emitterLights(lights.sphericalDepthEnds), lights.spherical, direct.spherical,
           indirect.spherical);
+  splitEnds(lights.diffuseDepthEnds, direct.diffuseDepthEnds, indirect.diffuseDepthEnds);
+  splitEnds(lights.glossyDepthEnds, direct.glossyDepthEnds, indirect.glossyDepthEnds);
   splitEnds(lights.sphericalDepthEnds, direct.sphericalDepthEnds, indirect.sphericalDepthEnds);
   direct.sphereShading = indirect.sphereShading = lights.sphereShading;
   direct.specularLimit = indirect.specularLimit = lights.specularLimit;

@@ -41,20 +41,23 @@ size_t chooseDims(const Rows& rows, size_t lights, const MrcsSettings& settings)
       dims > kFewestDims || dims == 0 ? ", or choose a smaller --sketch" : ", or fewer lights"));
 }
 
-// Sum of lengths over the light's, channel by channel; each has a third of the unseen part.
-Rgb scaleByChannel(const LightColumns& columns, std::span<const uint32_t> lights, size_t light) {
+// The scale with the colour that the cluster's lengths have together over the light's own. Where a
+// light is drawn in proportion to its weight, that is the paper's sum of lengths over its length,
+// channel by channel. Each channel has a third of the unseen part.
+Rgb scaleByChannel(const LightColumns& columns, std::span<const uint32_t> lights, size_t light,
+                   const LightCluster& cluster, float scale) {
   const auto length = [&](size_t i, int c) {
     const double seen = double{columns.channels[i][c]};
     return std::sqrt(seen * seen + columns.unseen / 3);
   };
-  Rgb scale;
+  Rgb out(scale);
   for (int c = 0; c < 3; ++c) {
     double sum = 0;
     for (const uint32_t i : lights) sum += length(i, c);
-    const double own = length(light, c);
-    scale[c] = own > 0 ? static_cast<float>(sum / own) : 1.f;
+    const double own = length(light, c) / double{columns.weight[light]};
+    if (own > 0) out[c] *= static_cast<float>(sum / cluster.weight / own);
   }
-  return scale;
+  return out;
 }
 
 }  // namespace
@@ -66,10 +69,13 @@ std::vector<Representative> drawRepresentatives(const LightColumns& columns,
     const LightCluster& cluster = clustering.clusters[k];
     const auto lights =
         std::span<const uint32_t>(clustering.order).subspan(cluster.begin, cluster.size());
-    double left = uniformNumber(seed, k) * cluster.weight;
+    const auto probability = [&](uint32_t i) {
+      return drawProbability(double{columns.weight[i]}, cluster);
+    };
+    double left = uniformNumber(seed, k);
     uint32_t light = lights.back();
     for (const uint32_t i : lights) {
-      if ((left -= double{columns.weight[i]}) >= 0) continue;
+      if ((left -= probability(i)) >= 0) continue;
       light = i;
       break;
     }
@@ -77,9 +83,10 @@ std::vector<Representative> drawRepresentatives(const LightColumns& columns,
       out.push_back({light, Rgb(1.f)});
       continue;
     }
-    const auto scale = static_cast<float>(cluster.weight / double{columns.weight[light]});
-    out.push_back(
-        {light, columns.channels.empty() ? Rgb(scale) : scaleByChannel(columns, lights, light)});
+    const auto scale = static_cast<float>(1 / probability(light));
+    out.push_back({light, columns.channels.empty()
+                              ? Rgb(scale)
+                              : scaleByChannel(columns, lights, light, cluster, scale)});
   }
   std::sort(out.begin(), out.end(),
             [](const Representative& a, const Representative& b) { return a.light < b.light; });

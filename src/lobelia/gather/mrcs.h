@@ -2,13 +2,14 @@
 //
 // The lights' columns of the transport matrix are computed at a sample of rows (mrcs_rows.h,
 // mrcs_columns.h), lights whose columns point the same way are clustered (mrcs_clusters.h), and one
-// light of each cluster, drawn in proportion to its weight w and scaled by (sum of w) / w, stands
-// for all. Given any clustering, the mean over the draws is the light of all lights at every
-// receiver, whether the rows see it or not.
+// light of each cluster, drawn with probability p nearly in proportion to its weight and scaled by
+// 1 / p, stands for all. Given any clustering, the mean over the draws is the light of all lights
+// at every receiver, whether the rows see it or not.
 //
 // Deviations: one scale for the three channels (the paper's scale per channel is biased; it can be
-// asked for); lights of weight 0 are not dropped; columns are kept as sketches; errors are
-// predicted from rows of their own. Each file's head says more.
+// asked for); lights of weight 0 are not dropped; an even share of probability bounds the scale;
+// columns are kept as sketches; errors are predicted from rows of their own. Each file's head says
+// more.
 #pragma once
 
 #include "lobelia/gather/mrcs_clusters.h"

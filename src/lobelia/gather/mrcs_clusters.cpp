@@ -40,18 +40,24 @@ double Clustering::checkError(const LightColumns& columns) const {
   return columns.checkNorm > 0 ? std::sqrt(std::max(checkCost, 0.0)) / columns.checkNorm : 0;
 }
 
-LightCluster measureCluster(const LightColumns& columns, std::span<const uint32_t> lights) {
+LightCluster measureCluster(const LightColumns& columns, std::span<const uint32_t> order,
+                            size_t begin, size_t end) {
+  const std::span<const uint32_t> lights = order.subspan(begin, end - begin);
   const size_t dims = columns.dims, stride = columns.stride();
   AlignedFloats vector(stride), partial(stride, 0.f);
   std::vector<double> sum(stride, 0.0);
   LightCluster cluster;
-  double rows = 0, checks = 0;  // sum w |a|^2
+  cluster.begin = begin, cluster.end = end;
+  for (const uint32_t i : lights) cluster.weight += double{columns.weight[i]};
+  double squares = 0, rows = 0, checks = 0;  // w |a|^2; |vector|^2 / probability
   for (size_t i = 0; i < lights.size(); ++i) {
     columns.load(lights[i], vector.data());
     const double w = double{columns.weight[lights[i]]};
-    cluster.weight += w;
-    rows += w * double{dotProduct(vector.data(), vector.data(), dims)};
-    checks += w * double{dotProduct(&vector[dims], &vector[dims], columns.checkDims)};
+    const double inverse = w * w / drawProbability(w, cluster);
+    const double square = double{dotProduct(vector.data(), vector.data(), dims)};
+    squares += w * (square + columns.unseenOf(lights[i]));
+    rows += inverse * square;
+    checks += inverse * double{dotProduct(&vector[dims], &vector[dims], columns.checkDims)};
     addScaled(static_cast<float>(w), vector.data(), stride, partial.data());
     if (i % kFlush != kFlush - 1 && i + 1 != lights.size()) continue;
     for (size_t d = 0; d < stride; ++d) sum[d] += double{std::exchange(partial[d], 0.f)};
@@ -60,14 +66,10 @@ LightCluster measureCluster(const LightColumns& columns, std::span<const uint32_
   double rowsOfSum = 0, checksOfSum = 0;
   for (size_t d = 0; d < dims; ++d) rowsOfSum += sum[d] * sum[d];
   for (size_t d = dims; d < stride; ++d) checksOfSum += sum[d] * sum[d];
-  // An unseen part of length u adds u^2 / w to sum w |a|^2 and u^2 to |sum w a|^2.
-  double unseen = 0;
-  for (const uint32_t i : lights) unseen += columns.unseen / double{columns.weight[i]};
-  cluster.rowCost = std::max(cluster.weight * rows - rowsOfSum, 0.0);
-  cluster.checkCost = std::max(cluster.weight * checks - checksOfSum, 0.0);
-  cluster.cost =
-      cluster.rowCost +
-      std::max(cluster.weight * unseen - columns.unseen * static_cast<double>(lights.size()), 0.0);
+  const double unseenOfSum = columns.unseen * static_cast<double>(lights.size());
+  cluster.cost = std::max(cluster.weight * squares - rowsOfSum - unseenOfSum, 0.0);
+  cluster.rowCost = std::max(rows - rowsOfSum, 0.0);
+  cluster.checkCost = std::max(checks - checksOfSum, 0.0);
   return cluster;
 }
 

@@ -8,8 +8,9 @@
 // in the mean of squares. Sketches keep differences of vectors, not lengths, so cost is computed
 // from the differences: (sum w)(sum w |a|^2) - |sum w a|^2, a = vector / w.
 //
-// Deviations: the splitting phase takes the eight most expensive clusters at once, in parallel; and
-// the number of clusters may be left to a limit of the error, predicted from the check rows.
+// Deviations: a fifth of the probability is shared evenly (drawProbability()); the splitting phase
+// takes the eight most expensive clusters at once, in parallel; and the number of clusters may be
+// left to a limit of the error, predicted from the check rows.
 #pragma once
 
 #include "lobelia/base/context.h"
@@ -21,10 +22,20 @@ struct LightCluster {
   size_t begin = 0, end = 0;  // of Clustering::order
   double weight = 0;          // sum of w
   double cost = 0;            // with unseen parts: what clustering makes small
-  double rowCost = 0;         // expected squared error in the rows
-  double checkCost = 0;       // in the check rows
+  // Expected squared errors, as representatives are drawn, in the rows and in the check rows.
+  double rowCost = 0, checkCost = 0;
   size_t size() const { return end - begin; }
 };
+
+// A light stands for its cluster with this probability: by its weight, and to a share evenly. The
+// weights are what some rows show; where they show little of a light that matters elsewhere, the
+// even share bounds by how much it is scaled when drawn, at size / kEvenShare. It costs little: a
+// cluster of lights that are alike but for their weight errs by kEvenShare of its squared light.
+inline constexpr double kEvenShare = 0.2;
+inline double drawProbability(double weight, const LightCluster& cluster) {
+  return (1 - kEvenShare) * weight / cluster.weight +
+         kEvenShare / static_cast<double>(cluster.size());
+}
 
 struct ClusterSettings {
   size_t count = 1000;  // of clusters; at most so many when there is an errorLimit
@@ -47,7 +58,8 @@ struct Clustering {
 Clustering clusterLights(const LightColumns& columns, const ClusterSettings& settings,
                          Context& context);
 
-// The costs of lights as one cluster, from their numbers; begin and end are left alone.
-LightCluster measureCluster(const LightColumns& columns, std::span<const uint32_t> lights);
+// The costs of order[begin, end) as one cluster.
+LightCluster measureCluster(const LightColumns& columns, std::span<const uint32_t> order,
+                            size_t begin, size_t end);
 
 }  // namespace lobelia::gather

@@ -35,7 +35,7 @@ double squaredLength(const float* v, size_t count) {
 
 struct Share {
   std::vector<double> total;  // sum of the columns
-  double hardlySeen = 0;      // sum of squares of the columns that at most one row sees
+  double hardlySeen = 0;      // sum of lengths of the columns that at most one row sees
   size_t hardlySeenCount = 0;
   float least = 3e38f;  // length of a column
   uint64_t rays = 0, pairs = 0, nonfinite = 0;
@@ -140,7 +140,7 @@ class Maker {
     for (size_t r = 0; r < values_; ++r) share->total[r] += double{column[r]};
     const double squared = squaredLength(column, rowValues_);
     const double all = squared + squaredLength(column + rowValues_, values_ - rowValues_);
-    if (seen <= 1) share->hardlySeen += squared, ++share->hardlySeenCount;
+    if (seen <= 1) share->hardlySeen += std::sqrt(squared), ++share->hardlySeenCount;
     out_.weight[number] = static_cast<float>(std::sqrt(squared));
     if (out_.weight[number] >= kLeastLength)
       share->least = std::min(share->least, out_.weight[number]);
@@ -241,7 +241,8 @@ LightColumns computeColumns(const Tracer& tracer, const Rows& rows, const Virtua
   columns.rowNorm = norm(all.total, 0, 3 * rows.rowCount);
   columns.checkNorm = norm(all.total, 3 * rows.rowCount, all.total.size());
   if (all.hardlySeenCount > 0)
-    columns.unseen = all.hardlySeen / static_cast<double>(all.hardlySeenCount);
+    columns.unseen =
+        square(kUnseenShare * all.hardlySeen / static_cast<double>(all.hardlySeenCount));
   // No light was seen by one row only: as little as the least of those that were seen, or, where
   // the rows see nothing, all alike.
   if (all.hardlySeenCount > 0 && !(columns.unseen > 0))

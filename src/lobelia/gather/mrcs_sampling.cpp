@@ -155,10 +155,7 @@ Clustering sampleClusters(const LightColumns& columns, size_t count, uint64_t se
     result.order[ends[nearest[i]]++] = static_cast<uint32_t>(i);
   parallelFor(result.clusters.size(), 1, [&](size_t k) {
     LightCluster& cluster = result.clusters[k];
-    const size_t begin = cluster.begin, end = cluster.end;
-    cluster = measureCluster(columns,
-                             std::span<const uint32_t>(result.order).subspan(begin, end - begin));
-    cluster.begin = begin, cluster.end = end;
+    cluster = measureCluster(columns, result.order, cluster.begin, cluster.end);
   });
   for (const LightCluster& cluster : result.clusters) {
     result.cost += cluster.cost;

@@ -155,11 +155,9 @@ void splitClusters(const LightColumns& columns, size_t count, double errorLimit,
       // A cluster is known by its beginning and end.
       const uint64_t own = hashCombine(seed, whole.begin * columns.count + whole.end);
       const size_t cut = Splitter(columns, lights, own).split();
-      halves[i].first = measureCluster(columns, lights.first(cut));
-      halves[i].second = measureCluster(columns, lights.subspan(cut));
-      halves[i].first.begin = whole.begin;
-      halves[i].first.end = halves[i].second.begin = whole.begin + cut;
-      halves[i].second.end = whole.end;
+      const std::vector<uint32_t>& order = clustering->order;
+      halves[i].first = measureCluster(columns, order, whole.begin, whole.begin + cut);
+      halves[i].second = measureCluster(columns, order, whole.begin + cut, whole.end);
     });
     for (size_t i = 0; i < chosen.size(); ++i) {
       const auto& [first, second] = halves[i];
