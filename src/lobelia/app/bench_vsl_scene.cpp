@@ -52,12 +52,12 @@ const Reference& VslScene::reference() {
   return *reference_;
 }
 
-// As many samples in all as the reference has, over all pixels.
+// As many samples in all as the reference has, over all pixels, or an eighth of each pixel's.
 const Film& VslScene::referencePicture() {
   if (picture_) return *picture_;
   const double share =
       static_cast<double>(scene_.pixelCount()) / static_cast<double>(scene_.pictureCount());
-  const int spp = std::max(1, static_cast<int>(share * settings_.pathSamples));
+  const int spp = std::max(1, static_cast<int>(std::max(share, 0.125) * settings_.pathSamples));
   progress("picture of the reference", 0);
   picture_ = scene_.pathTraced(spp, kPictureSeed, BenchScene::Extent::picture);
   return *picture_;
