@@ -201,7 +201,10 @@ class SphereView {
     // Every product is wider than this: where the cone is narrow against it, the base is best.
     if (any(sharpest * solidAngle_ > Vf(kNarrow * 2 * kSgPi))) weighLobes(&overlap);
     const Vf most(static_cast<float>(shading.maxSamples));
-    samples_ = max(min(floor(most * overlap * Vf(0.5f / kSgPi) + Vf(0.999f)), most), Vf(1.f));
+    // Where lobes are drawn their values differ from direction to direction, however small the
+    // overlap is: as many directions as lobes have a share in them.
+    const Vf wanted = most * max(overlap * Vf(0.5f / kSgPi), Vf(2.f) * share_);
+    samples_ = max(min(floor(wanted + Vf(0.999f)), most), Vf(1.f));
   }
 
   void weighLobes(Vf* overlap) {
