@@ -1,8 +1,10 @@
 // `lobelia bench` at tiny sizes: every study runs, and its JSON holds what docs/performance.md is
 // made from.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "support/run_program.h"
@@ -46,6 +48,10 @@ TEST(Bench, UnknownNamesAreToldTheNearest) {
   EXPECT_EQ(runProgram("bench").exitCode, 2);
   EXPECT_EQ(runProgram("bench clamp --json /no/such/folder/a.json").exitCode, 2);
   EXPECT_EQ(runProgram("bench clamp --scene missing.xml").exitCode, 3);
+  EXPECT_EQ(runProgram("bench clamp --scene study-ggx --scene study-phong").exitCode, 2);
+  EXPECT_EQ(runProgram("bench clamp --columns 10").exitCode, 2);
+  EXPECT_EQ(runProgram("bench vsl --figures 1,3").exitCode, 2);
+  EXPECT_EQ(runProgram("bench vsl --figures 1,").exitCode, 2);
 }
 
 TEST(Bench, Rates) {
@@ -107,6 +113,89 @@ TEST(Bench, Convergence) {
     EXPECT_LT(deviation, 0.05 + 5 * row["error"].get<double>()) << row;
   }
   EXPECT_EQ(runBench(arguments + " --threads 1")["convergence"], rows) << "depends on threads";
+}
+
+std::string tinyVsl(int lights, int columns) {
+  return fmt::format(
+      " --detail 0.2 --size 24x18 --pixels 300 --num-lights {} --columns {} --rows 64 --spp 128 ",
+      lights, columns);
+}
+
+void expectPictures(const TemporaryFolder& folder, const std::vector<std::string>& names) {
+  const std::string page = test::readText(folder / "vsl.md");
+  for (const std::string& name : names) {
+    EXPECT_TRUE(std::filesystem::exists(folder / (name + ".png"))) << name;
+    EXPECT_NE(page.find("(" + name + ".png)"), std::string::npos) << name << " in\n" << page;
+  }
+}
+
+double l2Of(const json& rows, const std::string& method) {
+  for (const json& row : rows)
+    if (row["method"] == method) return row["l2"].get<double>();
+  ADD_FAILURE() << "no " << method << " in " << rows;
+  return 0;
+}
+
+// Metal walls, of which diffuse lights know nothing. All lights are gathered, so that a picture's
+// pixels are those that the clamps were chosen by.
+TEST(BenchVsl, MethodsSideBySide) {
+  const TemporaryFolder folder;
+  const json result = runBench("vsl --scene study-ggx --figures 1,2,6,7" + tinyVsl(500, 500) +
+                               "-o " + folder.path());
+  const json& first = result["figure1"];
+  expectNumbers(first, 3, {"seconds", "l2", "mean_ratio"});
+  expectNumbers(result["figure2"], 3, {"seconds", "l2", "mean_ratio"});
+  expectNumbers(result["figure6"], 3, {"l2", "mean_ratio"});
+  expectNumbers(result["figure7"], 3, {"l2", "mean_ratio"});
+  const double vpl = l2Of(first, "VPL, best clamp"), vsl = l2Of(first, "VSL, our defaults");
+  EXPECT_LT(vsl, 0.7 * vpl);
+  EXPECT_LT(l2Of(first, "VSL as in the paper"), vpl);
+  // Light that all pictures share makes the error less; figure 7 has that of figure 1.
+  EXPECT_LT(l2Of(result["figure6"], "VPL, best clamp"), vpl);
+  EXPECT_EQ(l2Of(result["figure7"], "VSL, our defaults"), vsl);
+  EXPECT_LE(l2Of(result["figure2"], "glossy VPL, best clamp"),
+            l2Of(result["figure2"], "glossy VPL, no clamp") + 1e-9);
+  expectPictures(folder, {"figure1-study-ggx-reference", "figure1-study-ggx-missing",
+                          "figure2-study-ggx-vpl-unclamped", "figure6-study-ggx-reference",
+                          "figure7-study-ggx-vsl-signed", "figure7-study-ggx-vsl-absolute"});
+  for (const char* name : {"figure1-study-ggx-vpl-clamped.exr", "figure1-study-ggx-vsl.exr",
+                           "figure6-study-ggx-vsl-paper.exr"})
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+}
+
+TEST(BenchVsl, CurvesOfSeveralScenes) {
+  const std::string arguments =
+      "vsl --figures 8 --scene study-ggx --scene study-diffuse" + tinyVsl(600, 150);
+  const json result = runBench(arguments);
+  const json& columns = result["figure8_columns"];
+  ASSERT_EQ(columns.size(), 4u) << columns;  // 500 and all, twice
+  for (const json& row : columns) EXPECT_GT(row["vsl_l2"], 0) << row;
+  EXPECT_EQ(columns[1]["columns"], 600);
+  EXPECT_TRUE(columns[0]["cosine_l2"].is_number());
+  expectNumbers(result["figure8_radius"], 12, {"vsl_l2", "vsl_ratio", "cosine_l2", "cosine_ratio"});
+  EXPECT_EQ(result["figure8_radius"][5]["factor"], "automatic");
+  const json& clamp = result["figure8_clamp"];
+  expectNumbers(clamp, 24, {"vpl_l2", "vpl_ratio", "glossy_l2"});
+  EXPECT_LT(clamp[0]["vpl_ratio"], clamp[11]["vpl_ratio"]) << "tighter clamps lose more";
+  EXPECT_EQ(runBench(arguments + " --threads 1")["figure8_columns"], columns)
+      << "depends on threads";
+}
+
+TEST(BenchVsl, BoxesOfItsOwn) {
+  const TemporaryFolder folder;
+  const json result = runBench("vsl --figures 4,5" + tinyVsl(1500, 150) + "-o " + folder.path());
+  expectNumbers(result["figure4"], 3, {"l2", "mean_ratio"});
+  EXPECT_LT(l2Of(result["figure4"], "VSL, planar"), l2Of(result["figure4"], "VSL, cosine"));
+  const json& sampling = result["figure5"];
+  expectNumbers(sampling, 4, {"noise", "mean_ratio", "seconds"});
+  EXPECT_EQ(sampling[0]["sampling"], "cone alone");
+  for (size_t i = 1; i < sampling.size(); ++i) {
+    EXPECT_LT(sampling[i]["noise"], sampling[0]["noise"].get<double>() / 1.3) << sampling[i];
+    EXPECT_NEAR(sampling[i]["mean_ratio"].get<double>(), 1, 0.15) << sampling[i];
+  }
+  EXPECT_LT(sampling[3]["noise"], sampling[2]["noise"]) << "more samples, less noise";
+  expectPictures(folder, {"figure4-study-corners-reference", "figure4-study-corners-vsl-planar",
+                          "figure5-study-ward-cone", "figure5-study-ward-exact"});
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ constexpr Study kStudies[] = {
     {"picture", "time and error of whole pictures", benchPicture},
     {"clamp", "energy that clamping loses, against the path tracer", benchClamp},
     {"convergence", "mean of glossy virtual lights against the path tracer", benchConvergence},
+    {"vsl", "virtual spherical lights: figures 1, 2 and 4 to 8 of their paper", benchVsl},
 };
 
 std::vector<std::string> studyNames() {
@@ -42,6 +43,18 @@ const Study& findStudy(const std::string& name) {
     known += fmt::format("\n  {:<12} {}", study.name, study.summary);
   throw UsageError(fmt::format("there is no bench '{}'{}; there are{}", name,
                                suggestion(name, studyNames()), known));
+}
+
+// Throws where an option is given to a study that knows nothing of it.
+void requireOptions(const BenchOptions& options) {
+  if (options.name == "vsl") return;
+  if (options.scenes.size() > 1)
+    throw UsageError(fmt::format("bench {} takes one --scene; vsl takes several", options.name));
+  if (!options.output.empty() || !options.figures.empty() || options.rows > 0 ||
+      options.columns > 0) {
+    throw UsageError(fmt::format(
+        "bench {} has no use for --output, --figures, --rows or --columns; vsl has", options.name));
+  }
 }
 
 // Shows a study's own progress, not that of every small picture in it.
@@ -71,9 +84,17 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
       ->type_name("STUDY")
       ->check(offered(studyNames()))
       ->required();
-  c.add_option("--scene", o.scene.scene,
-               "Run the study on this scene file or built-in scene instead of its own")
-      ->type_name("FILE|SCENE");
+  c.add_option("--scene", o.scenes,
+               "Run the study on this scene file or built-in scene instead of its own; vsl takes "
+               "several")
+      ->type_name("FILE|SCENE")
+      ->allow_extra_args(false);
+  c.add_option("-o,--output", o.output,
+               "vsl: folder for pictures and for a page that shows them with the tables; without "
+               "it only the pixels compared are rendered")
+      ->type_name("FOLDER");
+  c.add_option("--figures", o.figures, "vsl: figures of the paper; default: 1,2,4,5,6,7,8")
+      ->type_name("LIST");
   c.add_option("--json", o.json, "Write the tables as JSON")->type_name("FILE");
   c.add_option("-D,--define", o.scene.definitions, "name=value for a scene's $name")
       ->type_name("NAME=VALUE")
@@ -88,7 +109,8 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
       ->capture_default_str();
   c.add_option("--camera", o.camera, "Camera by name or index (from 0)")->type_name("NAME");
   c.add_option("--size", o.size, "WxH in pixels")->type_name("WxH");
-  c.add_option("--pixels", o.pixels, "clamp, convergence: pixels compared, spread over the image")
+  c.add_option("--pixels", o.pixels,
+               "clamp, convergence, vsl: pixels compared, spread over the image")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 32));
   c.add_option("--max-depth", o.maxDepth, "As for render; default: the scene's, else unlimited")
@@ -96,6 +118,12 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
       ->check(integerRange(1, int64_t{1} << 20));
   c.add_option("--num-lights", o.lightCount,
                "Virtual lights in a set (convergence: in the largest set)")
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 31));
+  c.add_option("--rows", o.rows, "vsl: rows of --gather mrcs, as for render")
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 20));
+  c.add_option("--columns", o.columns, "vsl: columns of --gather mrcs; default: 5000")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 31));
   c.add_option("--spp", o.spp, "Samples per pixel of the path tracer")
@@ -111,9 +139,13 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
       ->capture_default_str();
 }
 
-ExitCode bench(const BenchOptions& options, const GlobalOptions& global,
+ExitCode bench(const BenchOptions& asked, const GlobalOptions& global,
                const std::string& commandLine) {
-  const Study& study = findStudy(options.name);
+  const Study& study = findStudy(asked.name);
+  requireOptions(asked);
+  BenchOptions options = asked;
+  options.commandLine = commandLine;
+  if (!options.scenes.empty()) options.scene.scene = options.scenes.front();
   if (!options.json.empty()) requireWritable(options.json);
   const ThreadLimit threads(global.threads);
   Console console(global.verbosity());

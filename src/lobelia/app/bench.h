@@ -8,11 +8,15 @@ namespace lobelia::app {
 
 struct BenchOptions {
   std::string name;
-  SceneOptions scene;  // scene.scene empty: the study's own scenes
+  std::vector<std::string> scenes;  // of the study instead of its own; most take one
+  SceneOptions scene;               // scene.scene: the first of them; empty: the study's own
   std::string size, camera, json;
+  std::string figures, output;  // vsl: "" all figures; "": no pictures
+  std::string commandLine;
   int maxDepth = 0;     // 0: the scene's
-  uint64_t pixels = 0;  // these four: 0 is the study's default
+  uint64_t pixels = 0;  // these: 0 is the study's default
   uint64_t lightCount = 0;
+  size_t rows = 0, columns = 0;
   int spp = 0;
   int sets = 0;
   uint64_t seed = 0;

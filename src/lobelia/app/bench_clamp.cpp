@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "lobelia/app/bench_scene.h"
 #include "lobelia/app/bench_studies.h"
@@ -16,15 +15,6 @@ namespace {
 
 constexpr uint64_t kPixels = 1024, kLights = 4096, kLightStream = 1;
 constexpr int kSpp = 2048, kSets = 16;
-
-// Steps of the square root of ten around 1 / radius^2, the unit of what is clamped, and none.
-std::vector<double> clampValues(float radius) {
-  const double middle = std::round(-2 * std::log10(static_cast<double>(std::max(radius, 1e-6f))));
-  std::vector<double> values;
-  for (int i = -4; i <= 4; ++i) values.push_back(std::pow(10, middle + 0.5 * i));
-  values.push_back(std::numeric_limits<double>::infinity());
-  return values;
-}
 
 struct Outcome {
   Estimate ratio;
@@ -68,7 +58,7 @@ BenchTable clampCurve(const BenchOptions& options, const std::string& defaultSce
     context.progress(fmt::format("{}{}, clamps", kBenchStage, scene.name()),
                      static_cast<double>(i) / static_cast<double>(clamps.size()));
     const bool off = !std::isfinite(clamps[i]);
-    const std::string clamp = off ? "off" : fmt::format("{:.3g}", clamps[i]);
+    const std::string clamp = clampText(clamps[i]);
     const Outcome vpl = measure(scene, reference, "vpl", clamp, lights, sets, context);
     const Outcome glossy = measure(scene, reference, "glossy", clamp, lights, sets, context);
     if (context.cancelled()) break;

@@ -1,8 +1,13 @@
 #include "lobelia/app/bench_scene.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <limits>
 
 #include "lobelia/app/bench_studies.h"
+#include "lobelia/app/light_layers.h"
+#include "lobelia/app/light_sets.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/render_virtual_lights.h"
 #include "lobelia/base/random.h"
@@ -47,6 +52,18 @@ Estimate ratio(Estimate a, Estimate b) {
   return {r, std::abs(r) * std::hypot(a.error / a.mean, b.error / b.mean)};
 }
 
+std::vector<double> clampValues(float radius, int stepsAbove) {
+  const double middle = std::round(-2 * std::log10(static_cast<double>(std::max(radius, 1e-6f))));
+  std::vector<double> values;
+  for (int i = -4; i <= stepsAbove; ++i) values.push_back(std::pow(10, middle + 0.5 * i));
+  values.push_back(std::numeric_limits<double>::infinity());
+  return values;
+}
+
+std::string clampText(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : "off";
+}
+
 BenchScene::BenchScene(const BenchOptions& options, const Defaults& defaults, Context& context)
     : options_(renderOptions(options, defaults)),
       context_(context),
@@ -61,33 +78,49 @@ BenchScene::BenchScene(const BenchOptions& options, const Defaults& defaults, Co
 }
 
 size_t BenchScene::pixelCount() const {
-  if (!pixels_.pixels.empty()) return pixels_.pixels.size();
+  return pixels_.pixels.empty() ? pictureCount() : pixels_.pixels.size();
+}
+
+size_t BenchScene::pictureCount() const {
   return static_cast<size_t>(camera_.cropX1 - camera_.cropX0) *
          static_cast<size_t>(camera_.cropY1 - camera_.cropY0);
 }
 
-Film BenchScene::render(uint64_t seed, const std::function<void(Film&)>& method) {
-  Film film = makeFilm(camera_, options_);
+Film BenchScene::render(const RenderOptions& options, uint64_t seed, Extent extent,
+                        const Method& method) {
+  const PixelSet pixels = extent == Extent::pixels ? pixels_ : PixelSet{};
+  Film film = makeFilm(camera_, options);
   context_.seed = hashCombine(options_.seed, seed);
-  method(film);
-  if (!pixels_.pixels.empty()) {
+  method(pixels, film);
+  if (!pixels.pixels.empty()) {
     film.alpha.assign(film.pixelCount(), 0.f);
-    for (const uint32_t pixel : pixels_.pixels) film.alpha[pixel] = 1;
+    for (const uint32_t pixel : pixels.pixels) film.alpha[pixel] = 1;
   }
-  composePicture(film, options_);
+  composePicture(film, options);
   return film;
 }
 
-Film BenchScene::pathTraced(int spp, uint64_t seed) {
+Film BenchScene::pathTraced(const RenderOptions& options, int spp, uint64_t seed, Extent extent) {
   PathSettings settings;
   settings.spp = spp;
   settings.maxDepth = maxDepth_;
-  settings.specularLimit = options_.specularLimit;
-  settings.component = options_.component == "indirect" ? Component::indirect : Component::all;
+  settings.specularLimit = options.specularLimit;
+  settings.component = componentOf(options);
   settings.hideEmitters = scene_.hideEmitters;
-  settings.pixels = pixels_;
-  return render(
-      seed, [&](Film& film) { renderPath(tracer_, emitters_, camera_, settings, film, context_); });
+  return render(options, seed, extent, [&](const PixelSet& pixels, Film& film) {
+    settings.pixels = pixels;
+    renderPath(tracer_, emitters_, camera_, settings, film, context_);
+  });
+}
+
+Film BenchScene::pathTraced(int spp, uint64_t seed, Extent extent) {
+  return pathTraced(options_, spp, seed, extent);
+}
+
+Film BenchScene::directLight(int spp, uint64_t seed, Extent extent) {
+  RenderOptions options = options_;
+  options.component = "direct";
+  return pathTraced(options, spp, seed, extent);
 }
 
 Film BenchScene::virtualLights(const std::string& model, const std::string& clamp,
@@ -101,11 +134,29 @@ Film BenchScene::virtualLights(const std::string& model, const std::string& clam
   return virtualLights(change, seed);
 }
 
-Film BenchScene::virtualLights(const std::function<void(RenderOptions&)>& change, uint64_t seed) {
+Film BenchScene::virtualLights(const Change& change, uint64_t seed, Extent extent) {
   RenderOptions options = options_;
   change(options);
-  return render(seed, [&](Film& film) {
-    renderVirtualLights(tracer_, emitters_, camera_, pixels_, maxDepth_, options, film, context_);
+  return render(options, seed, extent, [&](const PixelSet& pixels, Film& film) {
+    renderVirtualLights(tracer_, emitters_, camera_, pixels, maxDepth_, options, film, context_);
+  });
+}
+
+VirtualLights BenchScene::lights(const Change& change, uint64_t seed) {
+  RenderOptions options = options_;
+  change(options);
+  context_.seed = hashCombine(options_.seed, seed);
+  return obtainLights(tracer_, emitters_, maxDepth_, 0, options, context_);
+}
+
+Film BenchScene::withLights(VirtualLights lights, const Change& change, uint64_t seed,
+                            Extent extent) {
+  RenderOptions options = options_;
+  change(options);
+  std::optional<VirtualLights> set = std::move(lights);
+  return render(options, seed, extent, [&](const PixelSet& pixels, Film& film) {
+    renderVirtualLights(tracer_, emitters_, camera_, pixels, maxDepth_, options, film, context_,
+                        nullptr, nullptr, &set);
   });
 }
 

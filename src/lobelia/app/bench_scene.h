@@ -5,6 +5,7 @@
 
 #include "lobelia/app/bench.h"
 #include "lobelia/app/frame_setup.h"
+#include "lobelia/lights/virtual_lights.h"
 #include "lobelia/path/path_tracer.h"
 
 namespace lobelia::app {
@@ -14,6 +15,11 @@ struct Estimate {
 };
 Estimate estimate(const std::vector<double>& independent);
 Estimate ratio(Estimate a, Estimate b);  // of independent estimates
+
+// Clamps to try: steps of the square root of ten around 1 / radius^2, the unit of what is clamped,
+// `stepsAbove` of them above it, and none (infinity).
+std::vector<double> clampValues(float radius, int stepsAbove = 4);
+std::string clampText(double value);  // for --clamp
 
 class BenchScene {
  public:
@@ -25,22 +31,34 @@ class BenchScene {
   };
   BenchScene(const BenchOptions& options, const Defaults& defaults, Context& context);
 
+  // Which pixels are computed: those that --pixels chooses, or all.
+  enum class Extent : uint8_t { pixels, picture };
+
   // Pictures, or what there is of them when cancelled.
-  Film pathTraced(int spp, uint64_t seed);
+  Film pathTraced(int spp, uint64_t seed, Extent extent = Extent::pixels);
+  Film directLight(int spp, uint64_t seed,
+                   Extent extent);  // of the path tracer, whatever the study
   Film virtualLights(const std::string& model, const std::string& clamp, uint64_t lightCount,
                      int spp, uint64_t seed);
 
   // By virtual lights, one set, with options as `change` leaves them.
-  Film virtualLights(const std::function<void(RenderOptions&)>& change, uint64_t seed);
+  using Change = std::function<void(RenderOptions&)>;
+  Film virtualLights(const Change& change, uint64_t seed, Extent extent = Extent::pixels);
+  // The set of lights that this renders with, and a picture with another one.
+  VirtualLights lights(const Change& change, uint64_t seed);
+  Film withLights(VirtualLights lights, const Change& change, uint64_t seed, Extent extent);
 
   double mean(const Film& film) const;  // over the pixels and channels
   float radius() const { return tracer_.bounds().radius(); }
   const std::string& name() const { return name_; }
   size_t pixelCount() const;
+  size_t pictureCount() const;  // pixels of the whole
   const Camera& camera() const { return camera_; }
 
  private:
-  Film render(uint64_t seed, const std::function<void(Film&)>& method);
+  using Method = std::function<void(const PixelSet&, Film&)>;
+  Film render(const RenderOptions& options, uint64_t seed, Extent extent, const Method& method);
+  Film pathTraced(const RenderOptions& options, int spp, uint64_t seed, Extent extent);
 
   std::string name_;
   RenderOptions options_;

@@ -14,5 +14,6 @@ std::vector<BenchTable> benchRates(const BenchOptions& options, Context& context
 std::vector<BenchTable> benchPicture(const BenchOptions& options, Context& context);
 std::vector<BenchTable> benchClamp(const BenchOptions& options, Context& context);
 std::vector<BenchTable> benchConvergence(const BenchOptions& options, Context& context);
+std::vector<BenchTable> benchVsl(const BenchOptions& options, Context& context);
 
 }  // namespace lobelia::app

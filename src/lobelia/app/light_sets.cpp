@@ -82,8 +82,9 @@ SphereShading sphereShadingOf(const RenderOptions& options) {
   SphereShading shading;
   shading.indicator = options.sphereIndicator == "cosine" ? SphereShading::Indicator::cosine
                                                           : SphereShading::Indicator::planar;
-  shading.sampling = options.sphereSampling == "paper" ? SphereShading::Sampling::paper
-                                                       : SphereShading::Sampling::product;
+  shading.sampling = options.sphereSampling == "paper"  ? SphereShading::Sampling::paper
+                     : options.sphereSampling == "cone" ? SphereShading::Sampling::cone
+                                                        : SphereShading::Sampling::product;
   shading.maxSamples = options.sphereSamples;
   return shading;
 }

@@ -164,9 +164,9 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->capture_default_str();
   c.add_option("--vsl-sampling", o.sphereSampling,
                "Directions to a spherical light by its disc or cone and by products of lobes "
-               "(product), or by the cone and both BSDFs (paper; slow)")
+               "(product), by the cone and both BSDFs (paper; slow), or by the cone alone (cone)")
       ->type_name("HOW")
-      ->check(CLI::IsMember({"product", "paper"}))
+      ->check(CLI::IsMember({"product", "paper", "cone"}))
       ->capture_default_str();
   c.add_option("--vsl-samples", o.sphereSamples,
                "Directions per pair where lobes and light overlap over a whole hemisphere")

@@ -11,6 +11,8 @@ Scene makeStudyPhong(float detail);
 Scene makeStudyGgx(float detail);
 Scene makeStudyPane(float detail);
 Scene makeStudyMirror(float detail);
+Scene makeStudyCorners(float detail);
+Scene makeStudyWard(float detail);
 Scene makeStudyRoom(float detail);
 Scene makeKitchen(float detail);
 Scene makeKitchenStove(float detail);

@@ -28,6 +28,8 @@ constexpr BuiltinScene kBuiltins[] = {
     {"study-ggx", makeStudyGgx, 9966, "Rounded box for studies: GGX metals and lacquer"},
     {"study-pane", makeStudyPane, 9976, "Rounded box for studies: lit through a glass pane"},
     {"study-mirror", makeStudyMirror, 9968, "Rounded box for studies: with a mirror"},
+    {"study-corners", makeStudyCorners, 26, "Box with sharp corners for studies: Lambert [P003]"},
+    {"study-ward", makeStudyWard, 26, "Box with sharp corners for studies: Ward [P003]"},
     {"box", makeBox, 135000, "Glossy Cornell box with a dragon and a flowered screen [P000]"},
     {"tableau", tableau<TableauFloor::constant>, 214600,
      "Three glossy sculptures on a glossy floor [P000]"},

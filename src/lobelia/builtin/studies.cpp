@@ -4,6 +4,7 @@
 // rounded and the things in it float. Where surfaces touch at an angle, the geometry term of
 // virtual lights grows as 1/d^2 and the variance of their sum has no bound; means over such
 // pictures converge as N^(-1/3) and cannot be told from a bias of a percent in reasonable time.
+// `study-corners` and `study-ward`, for figures 4 and 5 of [P003], have such edges on purpose.
 //
 // x right, y up, z to the viewer; the room spans [-1, 1]^3.
 #include <algorithm>
@@ -25,6 +26,14 @@ Material metal(Rgb reflectance, float alpha) {
   if (alpha == 0) return m;
   m.type = MaterialType::roughConductor;
   m.distribution = Distribution::ggx;
+  m.alphaU = m.alphaV = alpha;
+  return m;
+}
+Material ward(Rgb base, Rgb specular, float alpha) {
+  Material m;
+  m.type = MaterialType::ward;
+  m.diffuse = base;
+  m.specular = specular;
   m.alphaU = m.alphaV = alpha;
   return m;
 }
@@ -60,6 +69,19 @@ class StudyBox {
         scaled(32, 8), scaled(64, 12));
     add(ball, translation({-0.4, -0.45, -0.3}) * scaling(Vec3d(0.35)), left, "left ball");
     add(ball, translation({0.4, -0.5, -0.1}) * scaling(Vec3d(0.28)), right, "right ball");
+  }
+
+  // Walls that meet at right angles, and a block that stands on the floor in a corner of its own.
+  void addSharpRoom(const Material& walls, const Material& left, const Material& right) {
+    const Mat4 onFloor = translation({0.35, -0.6, -0.35}) * rotation({0, 1, 0}, 25);
+    const Mesh square = io::unitRectangle();
+    add(square, translation({0, 0, -1}), walls, "back wall");
+    add(square, translation({0, 0, 1}) * rotation({0, 1, 0}, 180), walls, "front wall");
+    add(square, translation({0, -1, 0}) * rotation({1, 0, 0}, -90), walls, "floor");
+    add(square, translation({0, 1, 0}) * rotation({1, 0, 0}, 90), walls, "ceiling");
+    add(square, translation({-1, 0, 0}) * rotation({0, 1, 0}, 90), left, "left wall");
+    add(square, translation({1, 0, 0}) * rotation({0, 1, 0}, -90), right, "right wall");
+    add(io::unitCube(), onFloor * scaling({0.3, 0.4, 0.3}), walls, "block");
   }
 
   // A square of the given half side whose normal is +z before it is placed.
@@ -156,6 +178,23 @@ Scene makeStudyMirror(float detail) {
   box.addCeilingLamp();
   box.add(io::unitRectangle(), translation({0, 0, -0.85}) * scaling({0.6, 0.6, 1}),
           metal(Rgb(0.9f), 0), "mirror");
+  return box.finish();
+}
+
+Scene makeStudyCorners(float detail) {
+  StudyBox box(detail);
+  box.addSharpRoom(SceneBuilder::diffuse(kGrey), SceneBuilder::diffuse(kRed),
+                   SceneBuilder::diffuse(kBlue));
+  box.addCeilingLamp();
+  return box.finish();
+}
+
+Scene makeStudyWard(float detail) {
+  constexpr float kAlpha = 0.03f;  // of all surfaces, as in the paper
+  StudyBox box(detail);
+  box.addSharpRoom(ward(kGrey * 0.5f, Rgb(0.4f), kAlpha), ward(kRed * 0.5f, Rgb(0.4f), kAlpha),
+                   ward(kBlue * 0.5f, Rgb(0.4f), kAlpha));
+  box.addCeilingLamp();
   return box.finish();
 }
 

@@ -21,4 +21,13 @@ struct FalseColors {
 // Luminance of layers with colours.
 FalseColors falseColors(const Film& film, const std::string& layer);
 
+// Blue to white to red, x in [-1, 1]; sRGB, 8 bits.
+std::array<uint8_t, 3> blueWhiteRed(float x);
+double meanLuminance(const Film& film);  // of the finite pixels of the picture
+// film - reference in luminance, pixel by pixel: the difference itself by blueWhiteRed() and its
+// absolute value by cubehelix(); one of `scale` has the end's colour. Where it is not finite, black
+// and magenta, which stand for nothing else there.
+std::vector<uint8_t> signedDifference(const Film& film, const Film& reference, float scale);
+std::vector<uint8_t> absoluteDifference(const Film& film, const Film& reference, float scale);
+
 }  // namespace lobelia

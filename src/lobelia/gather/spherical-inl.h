@@ -454,7 +454,7 @@ void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane,
     Vf(1.f).store(pairs->factor[i].v);
     for (float* sum : {pairs->r[i].v, pairs->g[i].v, pairs->b[i].v}) Vf(0.f).store(sum);
   }
-  if (block.sphereShading.sampling == SphereShading::Sampling::paper) {
+  if (block.sphereShading.sampling != SphereShading::Sampling::product) {
     for (size_t i = 0; i < pairs->count; ++i)
       for (uint32_t bits = pairs->mask[i]; bits != 0; bits &= bits - 1) {
         const size_t k = static_cast<size_t>(__builtin_ctz(bits));

@@ -1,6 +1,6 @@
 // [Hasan09 sections 3.1 to 3.3]. Deviations: inside of the sphere the cone opens to
-// acos(-sqrt(1 - (d/r)^2)) about the light and the hemisphere above x clips it, where the paper jumps
-// to that hemisphere at d = r; the planar indicator may be asked for, too.
+// acos(-sqrt(1 - (d/r)^2)) about the light and the hemisphere above x clips it, where the paper
+// jumps to that hemisphere at d = r; the planar indicator may be asked for, too.
 #include "lobelia/gather/spherical_paper.h"
 
 #include <algorithm>
@@ -25,6 +25,10 @@ struct Cone {
                           : 1 + std::sqrt(std::max(0.f, 1 - d2 / r2));
   }
   float solidAngle() const { return kTwoPi * oneMinusCos; }
+  // "proportional to the size of the solid angle, with a maximum of up to 100 samples for 2 pi".
+  int sampleCount() const {
+    return std::clamp(static_cast<int>(std::ceil(100 * solidAngle() / kTwoPi)), 1, 100);
+  }
   bool contains(Vec3f l) const {
     return lengthSquared(l - axis) <= 2.00002f * oneMinusCos + 1e-12f;
   }
@@ -49,8 +53,7 @@ Bsdf lightBsdf(const PreparedSphere& sphere) {
 }
 
 Vec3f arriving(const PreparedSphere& sphere) {
-  return sphere.lobeCount > 0 ? sphere.lobes[0].frame.toWorld(sphere.lobes[0].wi)
-                              : sphere.disc.n;
+  return sphere.lobeCount > 0 ? sphere.lobes[0].frame.toWorld(sphere.lobes[0].wi) : sphere.disc.n;
 }
 
 // Indicator times what the surface at p sends along -l.
@@ -122,8 +125,7 @@ Rgb integrateBySampling(const SpherePair& pair, const std::array<int, 3>& counts
 
 Rgb integrateAsPrinted(const SpherePair& pair, Rng* random) {
   const Cone cone(pair.light.p - pair.point.p, pair.sphere.radius);
-  const int count =
-      std::clamp(static_cast<int>(std::ceil(100 * cone.solidAngle() / kTwoPi)), 1, 100);
+  const int count = cone.sampleCount();
   if (count >= 3) {
     const int third = count / 3;
     return integrateBySampling(pair, {count - 2 * third, third, third}, random);
@@ -141,18 +143,22 @@ Rgb integrateAsPrinted(const SpherePair& pair, Rng* random) {
     if (chosen == 0) {
       l = cone.sample(u);
     } else {
-      const auto s = chosen == 1 ? sample(pair.bsdf, pair.point.wo, choice, u)
-                                 : sample(light, wi, choice, u);
+      const auto s =
+          chosen == 1 ? sample(pair.bsdf, pair.point.wo, choice, u) : sample(light, wi, choice, u);
       if (!s) continue;
       l = chosen == 1 ? s->wi : -s->wi;
     }
     const Rgb f = integrand(pair, cone, l);
     if (!(maxComponent(f) > 0)) continue;
-    const float density =
-        (cone.pdf(l) + pdf(pair.bsdf, pair.point.wo, l) + pdf(light, wi, -l)) / 3;
+    const float density = (cone.pdf(l) + pdf(pair.bsdf, pair.point.wo, l) + pdf(light, wi, -l)) / 3;
     if (density > 0) sum += f / (density * static_cast<float>(count));
   }
   return sum;
+}
+
+Rgb integrateByCone(const SpherePair& pair, Rng* random) {
+  const Cone cone(pair.light.p - pair.point.p, pair.sphere.radius);
+  return integrateBySampling(pair, {cone.sampleCount(), 0, 0}, random);
 }
 
 Rgb evaluateAsPrinted(const Tile& tile, size_t stripIndex, size_t lane, const LightBlock& block,
@@ -165,9 +171,11 @@ Rgb evaluateAsPrinted(const Tile& tile, size_t stripIndex, size_t lane, const Li
                          std::bit_cast<uint32_t>(sampling.random[1][lane])),
              hashCombine(std::bit_cast<uint32_t>(sphere.random[0]),
                          std::bit_cast<uint32_t>(sphere.random[1])));
-  return integrateAsPrinted({point, receiverBsdf(*tile.receivers, point), block.lights[light],
-                             sphere, block.sphereShading.indicator},
-                            &random);
+  const SpherePair pair{point, receiverBsdf(*tile.receivers, point), block.lights[light], sphere,
+                        block.sphereShading.indicator};
+  return block.sphereShading.sampling == SphereShading::Sampling::cone
+             ? integrateByCone(pair, &random)
+             : integrateAsPrinted(pair, &random);
 }
 
 Rgb photonLight(const Tracer& tracer, const SpherePair& pair, const SphericalLight& light,

@@ -26,11 +26,14 @@ enum class SphereStrategy : uint8_t { cone = 1, receiver = 2, light = 4 };
 // [Veach95]; the cone's density must not be left out where the others do not cover all. A mean over
 // `random` is the integral for any counts whose strategies cover the integrand.
 Rgb integrateBySampling(const SpherePair& pair, const std::array<int, 3>& counts, Rng* random);
-// As section 3.3 counts them: in proportion to the cone's solid angle, at most 100 for a hemisphere,
-// a third for each strategy; where there is one, it is drawn among the three.
+// As section 3.3 counts them: in proportion to the cone's solid angle, at most 100 for a
+// hemisphere, a third for each strategy; where there is one, it is drawn among the three.
 Rgb integrateAsPrinted(const SpherePair& pair, Rng* random);
+// As many directions, all of the cone.
+Rgb integrateByCone(const SpherePair& pair, Rng* random);
 
-// integrateAsPrinted() for a lane of a tile, with random numbers of the pair's own.
+// integrateAsPrinted() or integrateByCone(), as the block's shading says, for a lane of a tile,
+// with random numbers of the pair's own.
 Rgb evaluateAsPrinted(const Tile& tile, size_t stripIndex, size_t lane, const LightBlock& block,
                       size_t light);
 

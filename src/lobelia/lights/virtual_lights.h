@@ -65,8 +65,9 @@ struct SphereShading {
   // (planar), or all, with a cosine at the light for those that pass by the surface (the paper's).
   enum class Indicator : uint8_t { planar, cosine };
   // product: disc, cone or hemisphere, mixed with the product of both ends' Gaussians; paper: cone
-  // and both BSDFs by the balance heuristic.
-  enum class Sampling : uint8_t { product, paper };
+  // and both BSDFs by the balance heuristic; cone: as many directions as those, of the cone alone
+  // (figure 5 there; for studies).
+  enum class Sampling : uint8_t { product, paper, cone };
   Indicator indicator = Indicator::planar;
   Sampling sampling = Sampling::product;
   int maxSamples = 16;  // of a pair whose lobes overlap with a whole hemisphere

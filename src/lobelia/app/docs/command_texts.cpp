@@ -80,8 +80,11 @@ const std::map<std::string, CommandTexts>& texts() {
           "Where the rays of a render with --aov cost went"}}}},
       {"bench",
        {"Runs a study and prints its tables as Markdown, as they stand in docs/performance.md.",
-        {},
-        {{"lobelia bench rates --json rates.json", "Measure rays per second"}}}},
+        {{"FOLDER/vsl.md", "vsl: tables and pictures on one page"},
+         {"FOLDER/figure*.exr, .png", "vsl: the pictures"}},
+        {{"lobelia bench rates --json rates.json", "Measure rays per second"},
+         {"lobelia bench vsl -o figures --json figures.json",
+          "Figures of the paper on virtual spherical lights"}}}},
       {"completion",
        {"Prints a script that completes commands, options and values in a shell. Installation puts "
         "the scripts where the shells look for them.",
