@@ -32,10 +32,6 @@ nlohmann::ordered_json describe(const TabulatedBrdf& table, const CapturedFit& f
 }  // namespace
 
 ExitCode fit(const FitOptions& options) {
-  if (options.lobes < 1 || options.lobes > kMaxFittedLobes) {
-    throw UsageError(
-        fmt::format("--lobes {}: there may be 1 to {}", options.lobes, kMaxFittedLobes));
-  }
   const std::filesystem::path output = options.output;
   const std::string extension = output.extension().string();
   if (!options.output.empty()) {
