@@ -25,6 +25,7 @@ set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
   INTERFACE_INCLUDE_DIRECTORIES "${includes}")
 find_package(meshoptimizer REQUIRED)
 find_library(DRACO_LIBRARY draco REQUIRED)
+find_package(nanoflann REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy libhwy-contrib)

@@ -183,7 +183,7 @@ TEST(LightPass, DepthsAreSortedAndLimited) {
 TEST(LightPass, DiffuseOnly) {
   LightSource source(glossyScene(0.2f));
   LightSettings settings;
-  settings.glossy = false;
+  settings.kind = LightKind::diffuse;
   const VirtualLights lights = source.run(settings);
   EXPECT_EQ(lights.model, "vpl");
   EXPECT_TRUE(lights.glossy.empty());

@@ -160,7 +160,7 @@ PixelSet choosePixels(const Camera& camera, const RenderOptions& options) {
   const int width = camera.cropX1 - camera.cropX0, height = camera.cropY1 - camera.cropY0;
   const size_t all = static_cast<size_t>(width) * static_cast<size_t>(height);
   if (options.pixels >= all) return {};
-  return spreadPixels(width, height, options.pixels, options.seed);
+  return spreadPixels(width, height, options.pixels, options.pixelsSeed.value_or(options.seed));
 }
 
 Film makeFilm(const Camera& camera, const RenderOptions& options) {

@@ -31,6 +31,11 @@ LightParts splitLights(const VirtualLights& lights) {
                parts.indirect.diffuseDepthEnds);
   splitByDepth(lights.glossy, lights.glossyDepthEnds, parts.direct.glossy,
                parts.direct.glossyDepthEnds, parts.indirect.glossy, parts.indirect.glossyDepthEnds);
+  splitByDepth(lights.spherical, lights.sphericalDepthEnds, parts.direct.spherical,
+               parts.direct.sphericalDepthEnds, parts.indirect.spherical,
+               parts.indirect.sphericalDepthEnds);
+  parts.direct.sphereShading = parts.indirect.sphereShading = lights.sphereShading;
+  parts.direct.specularLimit = parts.indirect.specularLimit = lights.specularLimit;
   parts.direct.groups = parts.indirect.groups = lights.groups;
   parts.direct.omniGroups = lights.omniGroups;
   parts.direct.directionalGroups = lights.directionalGroups;
@@ -40,6 +45,26 @@ LightParts splitLights(const VirtualLights& lights) {
                  parts.indirect.glossyGroups, ends);
   }
   return parts;
+}
+
+// Radius of the lights of pass `set` over the first pass' [Hachisuka and Jensen 2009, eq. 5 as
+// methods of progressive density estimation have it]: r_{k+1}^2 = r_k^2 (k + a) / (k + 1). The mean
+// over the passes converges to the truth.
+float progressiveRadiusScale(int set) {
+  constexpr double kAlpha = 2.0 / 3;
+  double square = 1;
+  for (int k = 1; k <= set; ++k) square *= (k + kAlpha) / (k + 1);
+  return static_cast<float>(std::sqrt(square));
+}
+
+SphereShading sphereShadingOf(const RenderOptions& options) {
+  SphereShading shading;
+  shading.indicator = options.sphereIndicator == "cosine" ? SphereShading::Indicator::cosine
+                                                          : SphereShading::Indicator::planar;
+  shading.sampling = options.sphereSampling == "paper" ? SphereShading::Sampling::paper
+                                                       : SphereShading::Sampling::product;
+  shading.maxSamples = options.sphereSamples;
+  return shading;
 }
 
 // Default clamp of `vpl`: the geometry term of a light nearer than a twentieth of the scene's
@@ -66,9 +91,14 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
   settings.set = static_cast<uint32_t>(set);
   settings.maxDepth = maxDepth;
   settings.specularLimit = options.specularLimit;
-  settings.glossy = options.lights != "vpl";
+  settings.kind = options.lights == "vpl"   ? LightKind::diffuse
+                  : options.lights == "vsl" ? LightKind::spherical
+                                            : LightKind::glossy;
   settings.directAsLights = options.direct == "lights";
   settings.environmentLights = options.environmentLights;
+  settings.radiusFactor = options.radius;
+  settings.radiusScale = progressiveRadiusScale(set);
+  settings.sphereShading = sphereShadingOf(options);
   if (!options.loadLights.empty()) {
     const StageTimer timer(context, "lights");  // as makeLights() books its own seconds
     VirtualLights lights = loadLights(options.loadLights, hash(tracer.scene()));
@@ -78,6 +108,7 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
                                    lights.model, lights.model));
     }
     requireFit(options.loadLights, lights, settings, tracer.scene());
+    lights.sphereShading = settings.sphereShading;
     return lights;
   }
   VirtualLights lights = makeLights(tracer, emitters, settings, context);

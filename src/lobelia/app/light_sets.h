@@ -22,6 +22,9 @@ int virtualLightSamples(const RenderOptions& options);
 // How many sets the samples of a pixel share, and which of them a sample gathers.
 int lightSetCount(const RenderOptions& options, int sampleCount);
 int lightSetOf(int sample, int sampleCount, int setCount);
+// Radius of spherical lights of a pass over the first pass' (progressive rendering).
+float progressiveRadiusScale(int set);
+SphereShading sphereShadingOf(const RenderOptions& options);
 // --clamp; 0: off.
 float clampValue(const RenderOptions& options, float sceneRadius);
 

@@ -17,6 +17,7 @@ const std::vector<LightModel>& lightModels() {
       {"light", "light tracing: particles connected to the camera (a check; blind to mirrors)", {}},
       {"vpl", "diffuse virtual point lights only, clamped by default", {"all"}},
       {"glossy", "diffuse and spherical-Gaussian lights", {"all"}},
+      {"vsl", "virtual spherical lights: any material at both ends, no spikes, no clamp", {"all"}},
   };
   return models;
 }

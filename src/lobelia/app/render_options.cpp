@@ -83,6 +83,11 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
   c.add_option("--pixels", o.pixels, "Compute only N pixels, spread over the image by the seed")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 32));
+  c.add_option("--pixels-seed", o.pixelsSeed,
+               "Seed by which --pixels chooses, so that pictures of several seeds have the same "
+               "pixels; default: --seed")
+      ->type_name("N")
+      ->check(seedNumber());
   c.add_option("--camera", o.camera,
                "Camera by name or index (from 0); with --frames several, A,B,C: a smooth path "
                "through them")
@@ -118,6 +123,28 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
   c.add_option("--direct", o.direct, "Direct light by next-event estimation (nee) or by lights")
       ->type_name("HOW")
       ->check(oneOf({"nee", "lights"}))
+      ->capture_default_str();
+  c.add_option("--radius", o.radius,
+               "Radius of spherical lights over the distance of their tenth neighbour; default: "
+               "chosen automatically")
+      ->type_name("C")
+      ->check(finiteNumber(0, 1e6, false));
+  c.add_option("--vsl-indicator", o.sphereIndicator,
+               "Which directions to a spherical light count: those that meet its disc on the "
+               "surface (planar), or all, with a cosine (cosine, the paper's)")
+      ->type_name("HOW")
+      ->check(CLI::IsMember({"planar", "cosine"}))
+      ->capture_default_str();
+  c.add_option("--vsl-sampling", o.sphereSampling,
+               "Directions to a spherical light by its disc or cone and by products of lobes "
+               "(product), or by the cone and both BSDFs (paper; slow)")
+      ->type_name("HOW")
+      ->check(CLI::IsMember({"product", "paper"}))
+      ->capture_default_str();
+  c.add_option("--vsl-samples", o.sphereSamples,
+               "Directions per pair where lobes and light overlap over a whole hemisphere")
+      ->type_name("N")
+      ->check(integerRange(1, 1000))
       ->capture_default_str();
   c.add_option("--specular-limit", o.specularLimit,
                "Roughness below which a lobe extends paths instead of gathering")

@@ -31,10 +31,14 @@ struct RenderOptions {
   int spp = 0;  // 0: the method's default
   std::string size, crop, camera;
   uint64_t pixels = 0;
+  std::optional<uint64_t> pixelsSeed;
   int passes = 0;    // independent light sets; 0: one per sample, unless lights are saved or loaded
   int maxDepth = 0;  // 0: the scene's
   uint64_t lightCount = 512, environmentLights = 1024;
   std::string direct = "nee";
+  float radius = 0;  // of spherical lights, over the tenth neighbour's distance; 0: automatic
+  std::string sphereIndicator = "planar", sphereSampling = "product";
+  int sphereSamples = 16;
   float specularLimit = 0.08f;
   std::string clamp;  // "": the method's default
   std::string component = "all";

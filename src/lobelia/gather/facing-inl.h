@@ -41,6 +41,9 @@ HWY_INLINE Mf lightFaces(const g::PreparedLight& light, V3<Vf> d) {
     const Vf q = Vf(0.f) - dot(broadcast(light.axis), d);
     faces = faces & (q * abs(q) > Vf(light.cutoff) * d2);
   }
+  if constexpr (kClass == g::LightClass::spherical) {
+    if (!light.transmits) faces = faces & (dot(broadcast(light.n), d) < Vf(0.f));
+  }
   return faces;
 }
 

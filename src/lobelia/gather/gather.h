@@ -26,7 +26,7 @@ struct GatherSettings {
 // bits; parts cost their shading once more, no rays.
 struct GatherParts {
   // Light's class x receiver's lobes: diffuse (with sheen and diffuse transmission) or glossy.
-  static constexpr size_t kTypes = 8;  // [2 * class + lobes], classes in the order of LightClass
+  static constexpr size_t kTypes = 10;  // [2 * class + lobes], classes in the order of LightClass
   size_t groupCount = 0;               // of VirtualLights::groups; 0: not asked for
   bool byType = false, countRays = false;
   // Set, not added to, by gatherAll().

@@ -80,8 +80,9 @@ class TileGather {
 
   // False when cancelled before the end: then nothing was added to radiance.
   bool run(size_t begin, size_t end, std::span<Rgb> radiance, Tally* tally) const {
-    const Tile tile = makeTile(receivers_, begin, end);
+    Tile tile = makeTile(receivers_, begin, end);
     if (tile.strips.empty()) return true;
+    if (!lights_.spherical.empty()) addSampling(receivers_, &tile);
     TileSums sums;
     sums.strips.resize(tile.strips.size());
     std::optional<TileParts> parts;

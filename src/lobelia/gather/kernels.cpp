@@ -12,6 +12,7 @@
 #include "hwy/highway.h"
 // After Highway's headers: compiled once per target.
 #include "lobelia/gather/shading-inl.h"
+#include "lobelia/gather/spherical-inl.h"
 #include "lobelia/gather/visibility-inl.h"
 
 LOBELIA_CORE_BEGIN
@@ -25,6 +26,8 @@ size_t keepVisible(const g::Tile& tile, const g::LightBlock& block, const Tracer
       return keepVisibleOf<g::LightClass::directional>(tile, block, tracer, pairs);
     case g::LightClass::diffuse:
       return keepVisibleOf<g::LightClass::diffuse>(tile, block, tracer, pairs);
+    case g::LightClass::spherical:
+      return keepVisibleOf<g::LightClass::spherical>(tile, block, tracer, pairs);
     case g::LightClass::glossy:
       break;
   }
@@ -42,6 +45,8 @@ void shade(const g::Tile& tile, const g::LightBlock& block, float clamp, const g
       return shadeOf<g::LightClass::diffuse>(tile, block, clamp, pairs, sums);
     case g::LightClass::glossy:
       return shadeOf<g::LightClass::glossy>(tile, block, clamp, pairs, sums);
+    case g::LightClass::spherical:
+      return shadeOf<g::LightClass::spherical>(tile, block, clamp, pairs, sums);
   }
 }
 

@@ -60,6 +60,24 @@ void prepareAll(const std::vector<Light>& lights, LightBlock* block) {
   }
 }
 
+void prepareSpheres(const VirtualLights& lights, const Scene& scene, LightBlock* block) {
+  block->sphereShading = lights.sphereShading;
+  block->spheres.resize(kBlockLights);
+  for (int i = 0; i < block->count; ++i) {
+    const SphericalLight& light = lights.spherical[block->first + static_cast<size_t>(i)];
+    PreparedSphere& sphere = block->spheres[static_cast<size_t>(i)];
+    prepareSphere(scene, light, lights.specularLimit, &sphere);
+    PreparedLight& out = block->lights[i];
+    out = {};
+    out.p = light.p;
+    out.n = sphere.disc.n;
+    out.end = liftedEnd(light.p, out.n);
+    out.endBehind = liftedEnd(light.p, -out.n);
+    out.transmits = sphere.transmits;
+    out.intensity = light.power / (kPi * sphere.squaredRadius);
+  }
+}
+
 void preparePatterns(const std::vector<OmniLight>& lights, const Scene& scene, LightBlock* block) {
   for (int i = 0; i < block->count; ++i) {
     const uint32_t emitter = lights[block->first + static_cast<size_t>(i)].emitter;
@@ -88,6 +106,8 @@ uint16_t groupOf(const VirtualLights& lights, LightClass lightClass, size_t inde
       return at(lights.directionalGroups);
     case LightClass::diffuse:
       return static_cast<uint16_t>(lights.diffuse[index].tag >> 8);
+    case LightClass::spherical:
+      return lights.spherical[index].group;
     case LightClass::glossy:
       break;
   }
@@ -102,6 +122,8 @@ size_t lightCount(const VirtualLights& lights, LightClass lightClass) {
       return lights.directional.size();
     case LightClass::diffuse:
       return lights.diffuse.size();
+    case LightClass::spherical:
+      return lights.spherical.size();
     case LightClass::glossy:
       break;
   }
@@ -115,6 +137,8 @@ size_t lightsUpToDepth(const VirtualLights& lights, LightClass lightClass, int d
       return depth < 0 ? 0 : lightCount(lights, lightClass);
     case LightClass::diffuse:
       return upToDepth(lights.diffuseDepthEnds, lights.diffuse.size(), depth);
+    case LightClass::spherical:
+      return upToDepth(lights.sphericalDepthEnds, lights.spherical.size(), depth);
     case LightClass::glossy:
       break;
   }
@@ -131,6 +155,8 @@ size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass) {
       return lightCount(lights, lightClass);
     case LightClass::diffuse:
       return first(lights.diffuseDepthEnds);
+    case LightClass::spherical:
+      return first(lights.sphericalDepthEnds);
     case LightClass::glossy:
       break;
   }
@@ -153,6 +179,8 @@ void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightCl
       return prepareAll(lights.diffuse, block);
     case LightClass::glossy:
       return prepareAll(lights.glossy, block);
+    case LightClass::spherical:
+      return prepareSpheres(lights, scene, block);
   }
 }
 

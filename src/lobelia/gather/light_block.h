@@ -3,26 +3,29 @@
 
 #include <vector>
 
-#include "lobelia/lights/virtual_lights.h"
+#include "lobelia/gather/sphere.h"
 #include "lobelia/path/emission_pattern.h"
 
 namespace lobelia::gather {
 
-enum class LightClass : uint8_t { omni, directional, diffuse, glossy };
+enum class LightClass : uint8_t { omni, directional, diffuse, glossy, spherical };
 inline constexpr LightClass kLightClasses[] = {LightClass::omni, LightClass::directional,
-                                               LightClass::diffuse, LightClass::glossy};
+                                               LightClass::diffuse, LightClass::glossy,
+                                               LightClass::spherical};
 
 // One record for all classes; a class reads what it has (VirtualLights).
 struct PreparedLight {
   Vec3f p;     // directional: unit direction to the light
   Vec3f end;   // of shadow rays: p moved off its surface; directional: direction
-  Vec3f n;     // diffuse, glossy
+  Vec3f endBehind;  // spherical: p moved off the other side
+  Vec3f n;     // diffuse, glossy; spherical: geometric normal of the lit side
   Vec3f axis;  // glossy
   float sharpness = 0;
   // Glossy: exp(sharpness (c - 1)) is exactly 0 in float where c |c| is below this; c is the
   // cosine to the axis.
   float cutoff = 0;
-  Rgb intensity;
+  Rgb intensity;  // spherical: power over area
+  bool transmits = true;  // spherical: does it light the other side, too?
   static constexpr uint32_t kNoPattern = 0xffffffffu;
   uint32_t pattern = kNoPattern;  // omni: index into LightBlock::patterns
 };
@@ -34,6 +37,8 @@ struct LightBlock {
   int count = 0;
   PreparedLight lights[kBlockLights];
   std::vector<EmissionPattern> patterns;  // of the lights that have one, in their order
+  std::vector<PreparedSphere> spheres;    // spherical: parallel to lights
+  SphereShading sphereShading;
 };
 
 // Light group of light `index` of a class.

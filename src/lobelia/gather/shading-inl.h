@@ -203,6 +203,10 @@ LaneSums sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& blo
   return sums;
 }
 
+// spherical-inl.h
+void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane,
+                    const g::LightBlock& block, PairScratch* pairs);
+
 template <g::LightClass kClass>
 void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
              const g::PairMasks& pairMasks, g::TileSums* sums) {
@@ -220,8 +224,12 @@ void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
         pairs.mask[pairs.count++] = bits;
       }
       if (pairs.count == 0) continue;
-      directions<kClass>(strip, lane, block, &pairs);
-      addLobes(tile, strip, lane, &pairs);
+      if constexpr (kClass == g::LightClass::spherical) {
+        sphericalPairs(tile, s, lane, block, &pairs);
+      } else {
+        directions<kClass>(strip, lane, block, &pairs);
+        addLobes(tile, strip, lane, &pairs);
+      }
       const LaneSums lanes = sumUp<kClass>(strip, lane, block, clamp, &pairs);
       sums->pairs += lanes.pairs;
       sums->nonfinite += lanes.nonfinite;

@@ -47,12 +47,31 @@ struct PointStrip {
   uint32_t active = 0;   // bit per lane; the other lanes repeat an active one
   size_t firstLobe = 0;  // into Tile::lobes
   size_t lobeCount = 0;
+  size_t firstGaussian = 0;  // into Tile::gaussians
+  size_t gaussianCount = 0;
+};
+
+// What drawing directions towards spherical lights needs to know of the 16 points: one of their
+// strongest Gaussians (gather/sphere.h), amplitude 0 where a point has fewer.
+struct GaussianStrip {
+  StripV3 axis;
+  alignas(64) float sharpness[kStrip];
+  alignas(64) float amplitude[kStrip];
+};
+struct SamplingStrip {
+  alignas(64) float diffuse[kStrip];   // luminance of the cosine-like rest, per steradian
+  alignas(64) float sharpest[kStrip];  // of the Gaussians
+  alignas(64) float random[3][kStrip];  // in [0,1)
 };
 
 struct Tile {
   std::vector<PointStrip> strips;
   std::vector<LobeStrip> lobes;
   std::vector<float> tables;  // kTransmittanceSize values each
+  // Empty unless asked for.
+  std::vector<GaussianStrip> gaussians;
+  std::vector<SamplingStrip> sampling;  // parallel to strips
+  const Receivers* receivers = nullptr;
 };
 
 inline constexpr size_t kMaxTilePoints = 256;
@@ -60,5 +79,9 @@ inline constexpr size_t kMaxTilePoints = 256;
 // Strips of receivers.points[begin, end), at most kMaxTilePoints. Points without lobes are left
 // out. Points of one kind keep their order, so that neighbours stay together.
 Tile makeTile(const Receivers& receivers, size_t begin, size_t end);
+// Adds what spherical lights need. The tile keeps a reference to the receivers.
+void addSampling(const Receivers& receivers, Tile* tile);
+// A receiver's rough lobes as a BSDF.
+Bsdf receiverBsdf(const Receivers& receivers, const ReceiverPoint& point);
 
 }  // namespace lobelia::gather

@@ -113,7 +113,13 @@ size_t keepVisibleOf(const g::Tile& tile, const g::LightBlock& block, const Trac
         const V3<Vf> f = load(strip.front, lane), b = load(strip.back, lane);
         const V3<Vf> origin{select(front, f.x, b.x), select(front, f.y, b.y),
                             select(front, f.z, b.z)};
-        const V3<Vf> end = broadcast(light.end);
+        V3<Vf> end = broadcast(light.end);
+        if constexpr (kClass == g::LightClass::spherical) {
+          const Mf behind = dot(broadcast(light.n), d) > Vf(0.f);
+          const V3<Vf> other = broadcast(light.endBehind);
+          end = {select(behind, other.x, end.x), select(behind, other.y, end.y),
+                 select(behind, other.z, end.z)};
+        }
         const uint32_t pair = static_cast<uint32_t>((l * pairs->strips + s) * g::kStrip + lane);
         queue.push(mask, origin, kInfinite ? end : end - origin, pair);
       }

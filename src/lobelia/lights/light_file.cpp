@@ -14,7 +14,7 @@ namespace lobelia {
 namespace {
 
 constexpr const char* kKind = "virtual-lights";
-constexpr uint32_t kVersion = 4;
+constexpr uint32_t kVersion = 5;
 
 // The chunk "settings".
 struct StoredSettings {
@@ -53,6 +53,7 @@ void checkGroups(const std::string& file, const VirtualLights& lights) {
   for (const auto* groups : {&lights.omniGroups, &lights.directionalGroups, &lights.glossyGroups})
     for (const uint16_t g : *groups) last = std::max<size_t>(last, g);
   for (const DiffuseLight& l : lights.diffuse) last = std::max<size_t>(last, l.tag >> 8);
+  for (const SphericalLight& l : lights.spherical) last = std::max<size_t>(last, l.group);
   if (last >= std::max<size_t>(lights.groups.size(), 1))
     damaged(file, fmt::format("a light names light group {} of {}", last, lights.groups.size()));
 }
@@ -68,6 +69,9 @@ void checkRecords(const std::string& file, const VirtualLights& lights) {
   for (const GlossyLight& l : lights.glossy)
     good &= isFinite(l.p) && isUnit(l.n) && isUnit(l.axis) && isFinite(l.intensity) &&
             std::isfinite(l.sharpness) && l.sharpness >= 0;
+  for (const SphericalLight& l : lights.spherical)
+    good &= isFinite(l.p) && isFinite(l.power) && std::isfinite(l.b1) && std::isfinite(l.b2) &&
+            std::isfinite(l.radius) && l.radius > 0;
   if (!good) damaged(file, "a light record holds numbers that are not finite or not unit vectors");
 }
 
@@ -91,8 +95,10 @@ void saveLights(const std::string& file, const VirtualLights& lights) {
   writer.add("directional", spanOf(lights.directional));
   writer.add("diffuse", spanOf(lights.diffuse));
   writer.add("glossy", spanOf(lights.glossy));
+  writer.add("spherical", spanOf(lights.spherical));
   writer.add("diffuse-depths", spanOf(lights.diffuseDepthEnds));
   writer.add("glossy-depths", spanOf(lights.glossyDepthEnds));
+  writer.add("spherical-depths", spanOf(lights.sphericalDepthEnds));
   std::vector<char> names;  // each ended by a zero
   for (const std::string& name : lights.groups)
     names.insert(names.end(), name.c_str(), name.c_str() + name.size() + 1);
@@ -126,8 +132,11 @@ VirtualLights loadLights(const std::string& file, uint64_t sceneHash) {
   lights.directional = reader.get<DirectionalLight>("directional");
   lights.diffuse = reader.get<DiffuseLight>("diffuse");
   lights.glossy = reader.get<GlossyLight>("glossy");
+  lights.spherical = reader.get<SphericalLight>("spherical");
   lights.diffuseDepthEnds = reader.get<uint32_t>("diffuse-depths");
   lights.glossyDepthEnds = reader.get<uint32_t>("glossy-depths");
+  lights.sphericalDepthEnds = reader.get<uint32_t>("spherical-depths");
+  checkDepthEnds(file, "spherical", lights.sphericalDepthEnds, lights.spherical.size());
   checkDepthEnds(file, "diffuse", lights.diffuseDepthEnds, lights.diffuse.size());
   checkDepthEnds(file, "glossy", lights.glossyDepthEnds, lights.glossy.size());
   const std::vector<char> names = reader.get<char>("group-names");
@@ -164,6 +173,12 @@ void requireFit(const std::string& file, const VirtualLights& lights, const Ligh
       damaged(file, fmt::format("a light names emitter {}; the scene has {}", emitter,
                                 scene.emitters.size()));
   };
+  for (const SphericalLight& l : lights.spherical) {
+    if (l.instance >= scene.instances.size() ||
+        l.triangle >= scene.meshes[scene.instances[l.instance].mesh.index].triangles.size())
+      damaged(file, fmt::format("a light names triangle {} of instance {}, which the scene lacks",
+                                l.triangle, l.instance));
+  }
   for (const OmniLight& l : lights.omni) checkEmitter(l.emitter);
   for (const DirectionalLight& l : lights.directional) checkEmitter(l.emitter);
 }

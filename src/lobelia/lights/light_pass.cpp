@@ -12,10 +12,24 @@
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/lights/particle_walk.h"
+#include "lobelia/lights/spherical_coverage.h"
+#include "lobelia/lights/spherical_radius.h"
 #include "lobelia/path/point_lights.h"
 
 namespace lobelia {
 namespace {
+
+const char* nameOf(LightKind kind) {
+  switch (kind) {
+    case LightKind::diffuse:
+      return "vpl";
+    case LightKind::glossy:
+      return "glossy";
+    case LightKind::spherical:
+      break;
+  }
+  return "vsl";
+}
 
 uint64_t seedOf(const LightSettings& settings, const Context& context) {
   return settings.set == 0 ? context.seed : hashCombine(context.seed, settings.set);
@@ -46,7 +60,7 @@ std::vector<ParticleBatch> traceParticles(const ParticleWalk& walk, uint64_t cou
 
 size_t lightCount(const std::vector<ParticleBatch>& batches) {
   size_t n = 0;
-  for (const ParticleBatch& b : batches) n += b.diffuse.size() + b.glossy.size();
+  for (const ParticleBatch& b : batches) n += b.lightCount();
   return n;
 }
 
@@ -110,6 +124,10 @@ void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, C
       batches, [](const ParticleBatch& b) -> auto& { return b.glossyGroup; },
       [](const ParticleBatch& b, size_t i) -> size_t { return b.glossyDepth[i]; },
       &lights->glossyGroups);
+  lights->sphericalDepthEnds = sortByDepth(
+      batches, [](const ParticleBatch& b) -> auto& { return b.spherical; },
+      [](const ParticleBatch& b, size_t i) -> size_t { return b.spherical[i].depth; },
+      &lights->spherical);
   ParticleBatch total;
   for (const ParticleBatch& b : batches) {
     total.rays += b.rays, total.cut += b.cut;
@@ -150,7 +168,8 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
                          const LightSettings& settings, Context& context) {
   const StageTimer timer(context, "lights");
   VirtualLights lights;
-  lights.model = settings.glossy ? "glossy" : "vpl";
+  lights.model = nameOf(settings.kind);
+  lights.sphereShading = settings.sphereShading;
   lights.maxDepth = settings.maxDepth;
   lights.specularLimit = settings.specularLimit;
   lights.direct = settings.directAsLights;
@@ -165,12 +184,18 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   const float scale = static_cast<float>(1.0 / static_cast<double>(particles));
   const ParticleWalk walk(tracer, emitters, settings, lights.seed, kStream, scale);
   collect(traceParticles(walk, particles, context, true), &lights, context);
+  if (!context.cancelled() && !lights.spherical.empty()) {
+    chooseRadii(tracer.scene(), settings, &lights);
+    coverSurfaces(tracer, &lights, context);
+  }
   lights.particles = particles;
   context.statistics.addCount("light_particles", particles);
-  if (lights.diffuse.empty() && lights.glossy.empty() && !context.cancelled())
+  const size_t left = lights.diffuse.size() + lights.glossy.size() + lights.spherical.size();
+  if (left == 0 && !context.cancelled())
     context.warning("no particle left a virtual light: there is no indirect light to gather");
-  context.debug(fmt::format("{} particles left {} diffuse and {} glossy lights", particles,
-                            lights.diffuse.size(), lights.glossy.size()));
+  context.debug(fmt::format("{} particles left {} diffuse, {} glossy and {} spherical lights",
+                            particles, lights.diffuse.size(), lights.glossy.size(),
+                            lights.spherical.size()));
   return lights;
 }
 

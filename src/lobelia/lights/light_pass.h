@@ -6,18 +6,29 @@
 
 namespace lobelia {
 
+// What a particle leaves where it scatters by rough lobes.
+enum class LightKind : uint8_t {
+  diffuse,    // their diffuse part (--lights vpl)
+  glossy,     // that and spherical Gaussians
+  spherical,  // one spherical light for all of them (--lights vsl)
+};
+
 struct LightSettings {
   size_t count = 4096;  // lights aimed at; particles are traced until about that many
   uint32_t set = 0;     // which of many independent sets of lights
   int maxDepth = -1;    // of whole paths: lights reach depth maxDepth - 2
   float specularLimit = 0.08f;
-  bool glossy = true;           // false: diffuse lights only (--lights vpl)
+  LightKind kind = LightKind::glossy;
   bool directAsLights = false;  // --direct lights: emitters themselves become lights
   // Directional lights for environments (--env-lights), with directAsLights only: without it their
   // direct light is sampled at the receivers. 0: as many as give a good image.
   size_t environmentLights = 0;
   int gaussiansPerLobe = 24;   // of the expansion of a BSDF (bsdf/gaussians.h); 1: the paper's form
   bool everyGaussian = false;  // true: all of them become lights; false: one is drawn per vertex
+  // Spherical lights: radius over the distance of the tenth neighbour; 0: chosen automatically
+  // (spherical_radius.h). radiusScale multiplies either (progressive rendering).
+  float radiusFactor = 0, radiusScale = 1;
+  SphereShading sphereShading;
 };
 
 // Unbiased per particle: the expected sum of lights does not depend on `count`. Same seed, same

@@ -67,7 +67,7 @@ void ParticleWalk::trace(uint32_t particle, ParticleBatch* out) const {
     const Bsdf bsdf = makeBsdf(emitters_.scene(), at, wi, settings_.specularLimit);
     const float uGaussian = random.next1D();
     if (hasLobes(bsdf, LobeSet::rough))
-      leaveLights(at, bsdf, wi, power, {depth, group}, uGaussian, out);
+      leaveLights(*hit, at, bsdf, wi, power, {depth, group}, uGaussian, out);
 
     const float uLobe = random.next1D();
     const Vec2f u = random.next2D();
@@ -98,21 +98,38 @@ void ParticleWalk::leaveOnEmitter(const EmittedRay& emitted, Rgb power, Particle
              out);
 }
 
-void ParticleWalk::leaveLights(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power,
-                               Place place, float u, ParticleBatch* out) const {
+void ParticleWalk::leaveLights(const Hit& hit, const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi,
+                               Rgb power, Place place, float u, ParticleBatch* out) const {
   // Light that arrives from one side by the shading normals and from the other in truth.
   const std::span frames(bsdf.frames, static_cast<size_t>(bsdf.frameCount));
   if (std::ranges::none_of(frames, [&](auto& f) { return arrivingShare(bsdf, f, wi) > 0; })) return;
+  if (settings_.kind == LightKind::spherical) return addSpherical(hit, at, wi, power, place, out);
   const LobeExpansion lobes = expand(bsdf, wi, settings_.gaussiansPerLobe);
   const Vec3f side = dot(wi, bsdf.ng) > 0 ? bsdf.ng : -bsdf.ng;
-  const size_t before = out->diffuse.size() + out->glossy.size();
+  const size_t before = out->lightCount();
   if (maxComponent(lobes.diffuse) > 0)
     addDiffuse(offsetOrigin(at, side), side, power * lobes.diffuse * kInvPi, place, out);
   if (maxComponent(lobes.diffuseTransmitted) > 0)
     addDiffuse(offsetOrigin(at, -side), -side, power * lobes.diffuseTransmitted * kInvPi, place,
                out);
-  if (settings_.glossy) leaveGlossy(at, bsdf, lobes, power, place, u, out);
-  if (out->diffuse.size() + out->glossy.size() == before) ++out->dropped;
+  if (settings_.kind == LightKind::glossy) leaveGlossy(at, bsdf, lobes, power, place, u, out);
+  if (out->lightCount() == before) ++out->dropped;
+}
+
+void ParticleWalk::addSpherical(const Hit& hit, const SurfacePoint& at, Vec3f wi, Rgb power,
+                                Place place, ParticleBatch* out) const {
+  if (!isFinite(at.p) || !isFinite(wi) || !isFinite(power)) {
+    ++out->nonFinite;
+    return;
+  }
+  SphericalLight light{};
+  light.p = at.p;
+  light.power = power;
+  light.arriving = encodeOctahedral(wi);
+  light.instance = hit.instance, light.triangle = hit.triangle;
+  light.b1 = hit.b1, light.b2 = hit.b2;
+  light.depth = static_cast<uint8_t>(place.depth), light.group = place.group;
+  out->spherical.push_back(light);
 }
 
 void ParticleWalk::leaveGlossy(const SurfacePoint& at, const Bsdf& bsdf, const LobeExpansion& lobes,
@@ -140,9 +157,7 @@ void ParticleWalk::addDiffuse(Vec3f p, Vec3f n, Rgb intensity, Place place,
   if (!isFinite(p) || !isFinite(n) || !isFinite(intensity)) {
     ++out->nonFinite;
   } else if (maxComponent(intensity) > 0) {
-    out->diffuse.push_back(
-        {p, intensity, encodeOctahedral(n),
-         static_cast<uint32_t>(place.depth) | static_cast<uint32_t>(place.group) << 8});
+    out->diffuse.push_back({p, intensity, encodeOctahedral(n), tagOf(place)});
   }
 }
 

@@ -18,6 +18,8 @@ struct ParticleBatch {
   std::vector<GlossyLight> glossy;
   std::vector<uint8_t> glossyDepth;  // parallel to glossy; diffuse lights carry theirs
   std::vector<uint16_t> glossyGroup;
+  std::vector<SphericalLight> spherical;
+  size_t lightCount() const { return diffuse.size() + glossy.size() + spherical.size(); }
   uint64_t rays = 0, cut = 0, dropped = 0, nonFinite = 0;
 };
 
@@ -36,11 +38,16 @@ class ParticleWalk {
     int depth;
     uint16_t group;
   };
+  static uint32_t tagOf(Place place) {
+    return static_cast<uint32_t>(place.depth) | static_cast<uint32_t>(place.group) << 8;
+  }
   void leaveOnEmitter(const EmittedRay& emitted, Rgb power, ParticleBatch* out) const;
-  void leaveLights(const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power, Place place,
-                   float u, ParticleBatch* out) const;
+  void leaveLights(const Hit& hit, const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power,
+                   Place place, float u, ParticleBatch* out) const;
   void leaveGlossy(const SurfacePoint& at, const Bsdf& bsdf, const LobeExpansion& lobes, Rgb power,
                    Place place, float u, ParticleBatch* out) const;
+  void addSpherical(const Hit& hit, const SurfacePoint& at, Vec3f wi, Rgb power, Place place,
+                    ParticleBatch* out) const;
   void addDiffuse(Vec3f p, Vec3f n, Rgb intensity, Place place, ParticleBatch* out) const;
   void addGlossy(const SurfacePoint& at, const Bsdf& bsdf, const GaussianLobe& lobe, Rgb power,
                  Place place, ParticleBatch* out) const;

@@ -1,4 +1,4 @@
-// Virtual light records [P000 section 3]. Small, plain, in arrays by class.
+// Virtual light records [P000 section 3; Hasan09 section 3.2]. Small, plain, in arrays by class.
 #pragma once
 
 #include <string>
@@ -41,17 +41,49 @@ struct GlossyLight {
 };
 static_assert(sizeof(GlossyLight) == 52);
 
+// Virtual spherical light [Hasan09 section 3.2]: power that arrived at a surface, spread over what
+// of it lies within `radius`, to be scattered by the surface's own rough lobes. The surface is named
+// by the hit, from which its BSDF is made again (makeBsdf() seen from `arriving`).
+struct SphericalLight {
+  Vec3f p;
+  Rgb power;          // W, per particle
+  float radius = 0;   // 0: not chosen yet (chooseRadii())
+  uint32_t arriving;  // octahedral: where the power came from, leaving the surface
+  uint32_t instance, triangle;
+  float b1, b2;
+  // Cells of the disc in the tangent plane that lie on the surface (spherical_coverage.h).
+  uint32_t coverage[2];
+  uint16_t group;
+  uint8_t depth;
+  bool walled;  // the rest of the disc lies behind other surfaces, rather than beyond an edge
+};
+static_assert(sizeof(SphericalLight) == 60);
+
+// How spherical lights are evaluated [Hasan09 section 3.2, 3.3; docs/manual.md].
+struct SphereShading {
+  // Which directions in the cone of the sphere count: those that meet the disc in the tangent plane
+  // (planar), or all, with a cosine at the light for those that pass by the surface (the paper's).
+  enum class Indicator : uint8_t { planar, cosine };
+  // product: disc, cone or hemisphere, mixed with the product of both ends' Gaussians; paper: cone
+  // and both BSDFs by the balance heuristic.
+  enum class Sampling : uint8_t { product, paper };
+  Indicator indicator = Indicator::planar;
+  Sampling sampling = Sampling::product;
+  int maxSamples = 16;  // of a pair whose lobes overlap with a whole hemisphere
+};
+
 // Lights of one class are sorted by depth: depthEnds[d] is the number of lights with depth <= d,
 // where depth is the number of edges between the emitter and the light (0: on the emitter itself).
 struct VirtualLights {
-  std::string model;  // "vpl", "glossy"
+  std::string model;  // "vpl", "glossy", "vsl"
   std::vector<OmniLight> omni;
   std::vector<DirectionalLight> directional;
   std::vector<DiffuseLight> diffuse;
   std::vector<GlossyLight> glossy;
-  std::vector<uint32_t> diffuseDepthEnds, glossyDepthEnds;
+  std::vector<SphericalLight> spherical;
+  std::vector<uint32_t> diffuseDepthEnds, glossyDepthEnds, sphericalDepthEnds;
   // Light groups (LightGroups): their names, and the group of every light as an index into them;
-  // parallel to the lights, for diffuse lights in their tag. Empty: all lights are of group 0.
+  // parallel to the lights, for diffuse and spherical lights in them. Empty: all lights are of group 0.
   std::vector<std::string> groups;
   std::vector<uint16_t> omniGroups, directionalGroups, glossyGroups;
   uint64_t sceneHash = 0;
@@ -61,7 +93,10 @@ struct VirtualLights {
   int maxDepth = -1;
   float specularLimit = 0;
   bool direct = false;  // emitters themselves are among them
-  size_t size() const { return omni.size() + directional.size() + diffuse.size() + glossy.size(); }
+  SphereShading sphereShading;  // not kept in files
+  size_t size() const {
+    return omni.size() + directional.size() + diffuse.size() + glossy.size() + spherical.size();
+  }
 };
 
 uint32_t encodeOctahedral(Vec3f unit);

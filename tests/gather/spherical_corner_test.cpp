@@ -1,0 +1,129 @@
+// Corner darkening (methods.md 4.3; Hasan09 figure 4): a wall over a floor that shines evenly.
+#include "gather/spherical_setup.h"
+#include "lobelia/base/sampling.h"
+#include "lobelia/lights/spherical_coverage.h"
+#include "lobelia/lights/spherical_radius.h"
+
+namespace lobelia {
+namespace {
+
+using namespace test;
+
+constexpr int kColumns = 64, kRows = 32;
+// So that the tenth neighbour is 0.22 away: density 10 / (pi 0.22^2).
+const float kSide = std::sqrt(kColumns * kRows * kPi * 0.22f * 0.22f / 10);
+
+// The floor is [-side/2, side/2] x [0, side], the wall stands at y = 0.
+class Corner : public testing::Test {
+ protected:
+  Corner() : scene_(makeScene()), tracer_(scene_, context_) {
+    Rng random(1);
+    lights_.model = "vsl";
+    lights_.specularLimit = 0.01f;
+    for (int i = 0; i < kColumns; ++i) {
+      for (int j = 0; j < kRows; ++j) {
+        SphericalLight light{};
+        const float u = (static_cast<float>(i) + random.next1D()) / kColumns,
+                    v = (static_cast<float>(j) + random.next1D()) / kRows;
+        light.p = {(u - 0.5f) * kSide, v * kSide, 0};
+        light.power = Rgb(kSide * kSide / (kColumns * kRows));  // irradiance 1
+        light.arriving = encodeOctahedral({0, 0, 1});
+        // Barycentrics in the quad's triangles (0,0) (1,0) (1,1) and (0,0) (1,1) (0,1).
+        light.triangle = u >= v ? 0 : 1;
+        light.b1 = u >= v ? u - v : u, light.b2 = u >= v ? v : v - u;
+        light.depth = 1;
+        lights_.spherical.push_back(light);
+      }
+    }
+    lights_.sphericalDepthEnds = {0, static_cast<uint32_t>(lights_.spherical.size())};
+  }
+
+  Scene makeScene() {
+    Scene scene;
+    const MaterialHandle white = addMaterial(scene, diffuseMaterial(Rgb(1.f)));
+    addQuad(scene, {-kSide / 2, 0, 0}, {kSide, 0, 0}, {0, kSide, 0}, white);
+    addQuad(scene, {-kSide / 2, 0, 0}, {0, 0, kSide}, {kSide, 0, 0}, white);
+    return scene;
+  }
+
+  // Irradiance on the wall, a point 1 cm wide averaged over, relative to the floor's form factor.
+  double relative(float height, float radiusFactor, SphereShading::Indicator indicator) {
+    LightSettings settings;
+    settings.radiusFactor = radiusFactor;
+    lights_.sphereShading.indicator = indicator;
+    chooseRadii(scene_, settings, &lights_);
+    coverSurfaces(tracer_, &lights_, context_);
+    Bsdf bsdf;
+    bsdf.add(Lobe{});
+    Receivers receivers;
+    Rng random(2);
+    for (int i = 0; i < 512; ++i) {  // along the wall: not at one light's mercy
+      const float x = (random.next1D() - 0.5f) * kSide * 0.5f;
+      const Receivers one =
+          LitFloor::receivers(Vec3f(x, 0, height) - Vec3f(LitFloor::kMiddle), {0, 1, 0}, {0, 1, 0.5f}, bsdf, 1);
+      receivers.points.push_back(one.points[0]);
+      receivers.points.back().pixel = static_cast<uint32_t>(i);
+      receivers.points.back().error = 1e-6f;
+      receivers.lobes = one.lobes;
+    }
+    std::vector<Rgb> radiance(receivers.points.size());
+    gatherAll(tracer_, receivers, lights_, {}, radiance, context_);
+    double sum = 0, truth = 0;
+    for (size_t i = 0; i < radiance.size(); ++i) {
+      sum += static_cast<double>(radiance[i].x) * static_cast<double>(kPi);
+      truth += irradiance(receivers.points[i].p, height);
+    }
+    return sum / truth;
+  }
+
+  // By cosine-weighted directions, stratified.
+  double irradiance(Vec3f p, float height) const {
+    int hits = 0;
+    constexpr int kSteps = 64;
+    for (int i = 0; i < kSteps; ++i)
+      for (int j = 0; j < kSteps; ++j) {
+        const Vec3f w = sampleHemisphereCosine({(static_cast<float>(i) + 0.5f) / kSteps,
+                                                (static_cast<float>(j) + 0.5f) / kSteps});
+        const Vec3f d(w.x, w.z, w.y);  // about +y
+        if (d.z >= 0) continue;
+        const Vec3f q = p + d * (height / -d.z);
+        hits += std::abs(q.x) < kSide / 2 && q.y < kSide ? 1 : 0;
+      }
+    return static_cast<double>(hits) / (kSteps * kSteps);  // radiance 1/pi, irradiance hits
+  }
+
+  Context context_;
+  Scene scene_;
+  Tracer tracer_;
+  VirtualLights lights_;
+};
+
+TEST_F(Corner, PlanarIndicatorKeepsCornersLit) {
+  using enum SphereShading::Indicator;
+  EXPECT_NEAR(relative(0.02f, 1, planar), 0.97, 0.06);
+  EXPECT_NEAR(relative(0.1f, 1, planar), 1, 0.04);
+  EXPECT_NEAR(relative(0.3f, 1, planar), 1, 0.03);
+  EXPECT_NEAR(relative(1, 1, planar), 1, 0.02);
+}
+
+// The paper's indicator darkens them: the test above would notice.
+TEST_F(Corner, CosineIndicatorDarkensThem) {
+  EXPECT_LT(relative(0.02f, 1, SphereShading::Indicator::cosine), 0.65);
+}
+
+TEST_F(Corner, RadiusIsTheTenthNeighboursDistance) {
+  const std::vector<float> distances = tenthNeighbourDistances(scene_, lights_.spherical);
+  double mean = 0;
+  for (size_t i = 0; i < distances.size(); i += 37) {
+    std::vector<float> all;
+    for (const SphericalLight& other : lights_.spherical)
+      all.push_back(length(other.p - lights_.spherical[i].p));
+    std::nth_element(all.begin(), all.begin() + 10, all.end());  // the first is itself
+    EXPECT_NEAR(distances[i], all[10], 1e-5f);
+  }
+  for (const float d : distances) mean += static_cast<double>(d) / static_cast<double>(distances.size());
+  EXPECT_NEAR(mean, 0.22, 0.03);
+}
+
+}  // namespace
+}  // namespace lobelia
