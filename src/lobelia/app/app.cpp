@@ -147,7 +147,7 @@ struct CommandLine {
   ExitCode dispatch(const std::string& text) const {
     if (*renderCommand) return app::render(render, global, text);
     if (*compareCommand) return compareImages(compare);
-    if (*fitCommand) return app::fit(fit);
+    if (*fitCommand) return app::fit(fit, global);
     if (*infoCommand) return app::info(info, global);
     if (*sceneCommand) {
       const std::vector<std::string> names = builtin::builtinSceneNames();

@@ -60,6 +60,9 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
                       options.passes, samples));
     }
   }
+  for (const char* name : {"--radius", "--vsl-indicator", "--vsl-sampling", "--vsl-samples"})
+    report(name, options.lights != "vsl", "only --lights vsl has spherical lights");
+  report("--pixels-seed", options.pixels == 0, "all pixels are computed without --pixels");
   report("--checkpoint-interval", options.checkpoint.empty() && options.resume.empty(),
          "neither --checkpoint nor --resume names a file");
   if (options.replay.empty())

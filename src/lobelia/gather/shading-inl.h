@@ -168,13 +168,14 @@ inline void applyPattern(const g::PointStrip& strip, size_t lane, const g::Prepa
 struct LaneSums {
   V3<Vf> sum;
   uint64_t pairs, nonfinite;
+  uint32_t nonfiniteLanes;
 };
 
 template <g::LightClass kClass>
 LaneSums sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, float clamp,
                PairScratch* pairs) {
   constexpr bool kClamped = kClass != g::LightClass::directional;
-  LaneSums sums{{Vf(0.f), Vf(0.f), Vf(0.f)}, 0, 0};
+  LaneSums sums{{Vf(0.f), Vf(0.f), Vf(0.f)}, 0, 0, 0};
   for (size_t i = 0; i < pairs->count; ++i) {
     const g::PreparedLight& light = block.lights[pairs->light[i]];
     Vf factor = Vf::load(pairs->factor[i].v);
@@ -198,14 +199,17 @@ LaneSums sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& blo
     sums.sum.z += select(good, value.z, Vf(0.f));
     const size_t visibleCount = hn::CountTrue(Df(), visible.m);
     sums.pairs += visibleCount;
-    sums.nonfinite += visibleCount - hn::CountTrue(Df(), good.m);
+    const size_t goodCount = hn::CountTrue(Df(), good.m);
+    if (goodCount == visibleCount) continue;
+    sums.nonfinite += visibleCount - goodCount;
+    sums.nonfiniteLanes |= pairs->mask[i] & ~maskBits(good);
   }
   return sums;
 }
 
 // spherical-inl.h
-void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane,
-                    const g::LightBlock& block, PairScratch* pairs);
+void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane, const g::LightBlock& block,
+                    PairScratch* pairs);
 
 template <g::LightClass kClass>
 void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
@@ -238,6 +242,7 @@ void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
       lanes.sum.y.store(y);
       lanes.sum.z.store(z);
       g::TileSums::Strip& sum = sums->strips[s];
+      sum.nonfinite |= lanes.nonfiniteLanes << lane;
       for (size_t k = 0; k < kLanes; ++k) {
         sum.x[lane + k] += static_cast<double>(x[k]);
         sum.y[lane + k] += static_cast<double>(y[k]);
