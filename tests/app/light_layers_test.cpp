@@ -11,8 +11,8 @@ using test::runProgram;
 using test::TemporaryFolder;
 
 // A glossy floor and a wall under a panel, a point, a sky and a sun of different groups.
-std::string sceneText(bool panel, bool others) {
-  std::string text = R"(<scene version="3.0.0"><integrator type="path"><integer name="max_depth"
+std::string stageWith(const std::string& emitters) {
+  return R"(<scene version="3.0.0"><integrator type="path"><integer name="max_depth"
 value="6"/></integrator><sensor type="perspective"><float name="fov" value="60"/>
 <transform name="to_world"><lookat origin="0,2,6" target="0,0.5,0" up="0,1,0"/></transform>
 <film type="hdrfilm"><integer name="width" value="24"/><integer name="height" value="16"/></film>
@@ -22,7 +22,12 @@ value="6"/></integrator><sensor type="perspective"><float name="fov" value="60"/
 </transform><ref id="floor"/></shape>
 <shape type="rectangle"><transform name="to_world"><scale value="3"/><translate z="-3"/></transform>
 <ref id="wall"/></shape>
-)";
+)" + emitters +
+         "</scene>";
+}
+
+std::string sceneText(bool panel, bool others) {
+  std::string text;
   if (panel) {
     text += R"(<shape type="rectangle"><transform name="to_world"><scale value="0.5"/>
 <rotate x="1" angle="90"/><translate y="2.5"/></transform><emitter type="area"><rgb name="radiance"
@@ -33,7 +38,22 @@ value="5,4,3"/><string name="group" value="ceiling panel"/></emitter></shape>)";
 <rgb name="intensity" value="1,2,1"/><string name="group" value="bulb"/></emitter>
 <emitter type="constant"><rgb name="radiance" value="0.1,0.1,0.3"/></emitter>)";
   }
-  return text + "</scene>";
+  return stageWith(text);
+}
+
+// Lights from afar, each of a group of its own.
+const std::vector<std::pair<std::string, std::string>>& distantLights() {
+  static const std::vector<std::pair<std::string, std::string>> lights{
+      {"morning", R"(<emitter type="sun"><rgb name="irradiance" value="3,2,1"/><vector
+name="direction" value="0.4,-1,-0.8"/><float name="angular_radius" value="3"/>
+<string name="group" value="morning"/></emitter>)"},
+      {"evening", R"(<emitter type="sun"><rgb name="irradiance" value="1,0.5,2"/><vector
+name="direction" value="-0.9,-0.5,-0.4"/><string name="group" value="evening"/></emitter>)"},
+      {"noon", R"(<emitter type="directional"><rgb name="irradiance" value="0.5,1,0.5"/><vector
+name="direction" value="0.1,-1,-0.1"/><string name="group" value="noon"/></emitter>)"},
+      {"clouds", R"(<emitter type="envmap"><string name="filename" value="clouds.png"/>
+<string name="group" value="clouds"/></emitter>)"}};
+  return lights;
 }
 
 double difference(const Film& film, const std::vector<std::string>& layers,
@@ -96,6 +116,34 @@ TEST_F(LightLayers, AGroupIsThePictureOfItsLightsAlone) {
     const Film alone = render("panel.xml", method);
     const double expected = meanOf(alone, "");
     EXPECT_NEAR(meanOf(all, "group.ceiling panel"), expected, 0.05 * expected) << method;
+  }
+}
+
+// Suns and environments become directional lights of several groups, or are sampled as such.
+TEST_F(LightLayers, DistantLightsOfSeveralGroups) {
+  std::vector<uint8_t> clouds;
+  for (int i = 0; i < 16 * 8; ++i)
+    for (const int value : {60 + i, 90 + i / 2, 200 - i})
+      clouds.push_back(static_cast<uint8_t>(value));
+  io::writePng(folder_ / "clouds.png", clouds, 16, 8);
+  std::string all;
+  std::vector<std::string> layers;
+  for (const auto& [group, text] : distantLights()) {
+    all += text;
+    layers.push_back("group." + group);
+    test::writeText(folder_ / (group + ".xml"), stageWith(text));
+  }
+  test::writeText(folder_ / "distant.xml", stageWith(all));
+  for (const std::string method :
+       {"--lights path --spp 64", "--lights light --spp 128", "--lights glossy --spp 16",
+        "--lights glossy --direct lights --env-lights 64 --spp 16"}) {
+    const Film film = render("distant.xml", method + " --aov groups");
+    EXPECT_LT(difference(film, layers, ""), 1e-4) << method;
+    for (const auto& [group, text] : distantLights()) {
+      const double alone = meanOf(render(group + ".xml", method), "");
+      EXPECT_GT(alone, 0.01) << method << " " << group;
+      EXPECT_NEAR(meanOf(film, "group." + group), alone, 0.05 * alone) << method << " " << group;
+    }
   }
 }
 
@@ -176,6 +224,7 @@ TEST_F(LightLayers, RelightMixesGroupsAndShowPaintsLayers) {
   EXPECT_FALSE(mixed.layers.contains("variance"));
   EXPECT_EQ(runProgram("relight " + in + " --group blub=1 -o " + out).exitCode, 2);
   EXPECT_EQ(runProgram("relight " + in + " --group bulb=x -o " + out).exitCode, 2);
+  EXPECT_EQ(runProgram("relight " + in + " --group bulb=-1 -o " + out).exitCode, 2);
   const auto shown =
       runProgram("show " + in + " --layer cost --false-colour -o " + (folder_ / "heat.png"));
   EXPECT_EQ(shown.exitCode, 0) << shown.err;

@@ -89,7 +89,8 @@ class Everything {
       t.type = TextureType::bitmap;
       t.image = {static_cast<uint32_t>(kind)};
       t.filter = kind % 2 ? Filter::nearest : Filter::bilinear;
-      t.wrap = static_cast<Wrap>(kind);
+      t.wrapU = static_cast<Wrap>(kind);
+      t.wrapV = static_cast<Wrap>(kind % 2 == 0 ? kind : kind - 1);
       t.alphaChannel = kind == 1;
       for (auto& row : t.uvMatrix)
         for (float& v : row) v = kind == 0 ? v : random();

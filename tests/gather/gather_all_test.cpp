@@ -252,6 +252,16 @@ TEST_F(GatherAll, NonFiniteValuesAreCountedAndLeftOut) {
   lights.omni.push_back({{0.1f, 0.2f, 1.5f}, Rgb(0.f, 1.f, INFINITY), 0xffffffffu});
   EXPECT_EQ(gather(receivers, lights, settings), good);
   EXPECT_EQ(context_.statistics.count("nonfinite"), pairs);
+  // One of them bad, among pixels in no order: the first that sees it.
+  Context fresh;
+  for (size_t i = 0; i < receivers.points.size(); ++i)
+    receivers.points[i].pixel = static_cast<uint32_t>(100 + i * 7 % receivers.points.size());
+  uint32_t first = ~0u;
+  for (size_t i = 0; i < good.size(); ++i)
+    if (good[i] != Rgb(0.f)) first = std::min(first, receivers.points[i].pixel);
+  std::vector<Rgb> radiance(good.size());
+  gatherAll(tracer_, receivers, lights, settings, radiance, fresh);
+  EXPECT_EQ(fresh.statistics.value("first_nonfinite_pixel"), 1.0 + first);
 }
 
 TEST_F(GatherAll, ManyLightsSumAccurately) {

@@ -1,6 +1,8 @@
 // Tables of MERL: files there and back, broken files, materials read from them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -125,6 +127,33 @@ TEST(Merl, MaterialsAreFittedWhenLoadedAndFitsAreIncluded) {
   EXPECT_THROW(write("f.xml", head + "sphericalgaussians\"><float name=\"int_ior\" "
                                      "value=\"0.9\"/></bsdf></shape></scene>"),
                InputError);
+}
+
+// The model's lobes lie about the mirror direction: they cannot follow a retroreflector.
+TEST(Merl, PoorFitsAreSaid) {
+  const TabulatedBrdf good = example();
+  EXPECT_EQ(doubtsAbout(good, fitCaptured(good, 1)), "");
+
+  TabulatedBrdf backward = good;
+  for (int h = 0; h < TabulatedBrdf::kThetaH; ++h) {
+    for (int d = 0; d < TabulatedBrdf::kThetaD; ++d) {
+      for (int p = 0; p < TabulatedBrdf::kPhiD; ++p) {
+        const DirectionPair pair = toDirections(TabulatedBrdf::centre(h, d, p));
+        Rgb& value = backward.values[TabulatedBrdf::index(h, d, p)];
+        if (isMeasured(value)) value = Rgb(0.05f + std::exp(20 * (dot(pair.wo, pair.wi) - 1)));
+      }
+    }
+  }
+  const CapturedFit fit = fitCaptured(backward, 1);
+  EXPECT_NE(doubtsAbout(backward, fit).find(fmt::format("off by {:.1f} %", 100 * fit.error)),
+            std::string::npos)
+      << describeFit(backward, fit);
+
+  TabulatedBrdf sparse = good;  // a quarter was measured
+  for (size_t i = 0; i < sparse.values.size(); ++i)
+    if (i % 4 != 0) sparse.values[i] = Rgb(-1.f);
+  countInvalid(sparse);
+  EXPECT_NE(doubtsAbout(sparse, fitCaptured(sparse, 1)).find("not measured"), std::string::npos);
 }
 
 }  // namespace

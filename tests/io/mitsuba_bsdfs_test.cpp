@@ -203,7 +203,8 @@ TEST_F(MitsubaTexture, BitmapDefaults) {
   const Texture& t = scene[scene.materials[0].diffuse.texture];
   EXPECT_EQ(t.type, TextureType::bitmap);
   EXPECT_EQ(t.filter, Filter::bilinear);
-  EXPECT_EQ(t.wrap, Wrap::repeat);
+  EXPECT_EQ(t.wrapU, Wrap::repeat);
+  EXPECT_EQ(t.wrapV, Wrap::repeat);
   EXPECT_FALSE(t.alphaChannel);
   EXPECT_EQ(scene[t.image].width, 2);
 }
@@ -215,7 +216,8 @@ TEST_F(MitsubaTexture, BitmapOptions) {
       "x=\"2\" y=\"3\"/><translate x=\"0.5\"/></transform>"));
   const Texture& t = scene[scene.materials[0].diffuse.texture];
   EXPECT_EQ(t.filter, Filter::nearest);
-  EXPECT_EQ(t.wrap, Wrap::clamp);
+  EXPECT_EQ(t.wrapU, Wrap::clamp);
+  EXPECT_EQ(t.wrapV, Wrap::clamp);
   EXPECT_FLOAT_EQ(t.uvMatrix[0][0], 2);
   EXPECT_FLOAT_EQ(t.uvMatrix[1][1], 3);
   EXPECT_FLOAT_EQ(t.uvMatrix[0][2], 0.5f);
@@ -237,9 +239,16 @@ TEST_F(MitsubaTexture, LegacyBitmap) {
                   "value=\"a\"/>"),
            true);
   const Texture& t = scene.textures[0];
-  EXPECT_EQ(t.wrap, Wrap::mirror);
+  EXPECT_EQ(t.wrapU, Wrap::mirror);
+  EXPECT_EQ(t.wrapV, Wrap::mirror);
   EXPECT_FLOAT_EQ(t.uvMatrix[0][0], 4);
   EXPECT_FLOAT_EQ(t.uvMatrix[1][2], 0.1f);
+  const Scene axes = read(bitmap("<string name=\"wrapModeU\" value=\"clamp\"/><string "
+                                 "name=\"wrapModeV\" value=\"mirror\"/>"),
+                          true);
+  EXPECT_EQ(axes.textures[0].wrapU, Wrap::clamp);
+  EXPECT_EQ(axes.textures[0].wrapV, Wrap::mirror);
+  EXPECT_TRUE(axes.findings.empty());
   EXPECT_TRUE(t.alphaChannel);
   EXPECT_TRUE(scene.findings.empty());
 }

@@ -10,12 +10,6 @@
 namespace lobelia::test {
 namespace {
 
-constexpr const char* kTriangle = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n";
-
-void expectNear(Vec3f a, Vec3f b, float tolerance = 1e-4f) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
-}
-
 Emitter onlyLight(const std::string& text) {
   const Scene scene = readPbrtWorld("LightSource " + text);
   EXPECT_TRUE(scene.findings.empty()) << findingsOf(scene);

@@ -31,4 +31,11 @@ inline const Material& onlyMaterial(const Scene& scene) {
 }
 inline Rgb colorOf(const Emitter& e) { return e.radiance.value; }
 
+inline constexpr const char* kTriangle =
+    "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n";
+
+inline void expectNear(Vec3f a, Vec3f b, float tolerance = 1e-4f) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
+}
+
 }  // namespace lobelia::test

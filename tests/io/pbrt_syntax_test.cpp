@@ -27,7 +27,7 @@ Vec3f centreOf(const Scene& scene, size_t i = 0) {
   return scene.instances.at(i).toWorld.point({0, 0, 0});
 }
 
-void expectNear(Vec3f a, Vec3f b) {
+void expectAt(Vec3f a, Vec3f b) {
   EXPECT_NEAR(a.x, b.x, 1e-5f);
   EXPECT_NEAR(a.y, b.y, 1e-5f);
   EXPECT_NEAR(a.z, b.z, 1e-5f);
@@ -105,9 +105,9 @@ TEST(PbrtSyntax, ReadsIncludesImportsAndPackedFiles) {
       "Include \"packed.pbrt.gz\"";
   const Scene scene = readPbrtText(folder, text);
   ASSERT_EQ(scene.instances.size(), 3u);
-  expectNear(centreOf(scene, 0), {1, 0, 0});
-  expectNear(centreOf(scene, 1), {1, 0, 0});  // an import keeps its transformation to itself
-  expectNear(centreOf(scene, 2), {1, 1, 0});
+  expectAt(centreOf(scene, 0), {1, 0, 0});
+  expectAt(centreOf(scene, 1), {1, 0, 0});  // an import keeps its transformation to itself
+  expectAt(centreOf(scene, 2), {1, 1, 0});
   Context context;
   const Scene packed = io::readScene(folder.write("all.pbrt.gz", gzip(text)), {}, context);
   EXPECT_EQ(packed.instances.size(), 3u);
@@ -119,20 +119,20 @@ TEST(PbrtSyntax, ReadsIncludesImportsAndPackedFiles) {
 
 TEST(PbrtSyntax, Transformations) {
   const auto at = [](const std::string& text) { return centreOf(readPbrtWorld(text + kSphere)); };
-  expectNear(at("Translate 1 2 3 Scale 2 2 2 Translate 1 0 0 "), {3, 2, 3});
-  expectNear(at("Translate 5 5 5 Identity "), {0, 0, 0});
-  expectNear(at("Rotate 90 0 0 1 Translate 1 0 0 "), {0, 1, 0});
-  expectNear(at("Transform [1 0 0 0 0 1 0 0 0 0 1 0 7 8 9 1] "), {7, 8, 9});
-  expectNear(at("Translate 1 0 0 ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 7 8 9 1] "), {8, 8, 9});
-  expectNear(at("Translate 1 0 0 CoordinateSystem \"here\" Identity CoordSysTransform \"here\" "),
-             {1, 0, 0});
-  expectNear(at("AttributeBegin Translate 1 0 0 AttributeEnd "), {0, 0, 0});
-  expectNear(at("TransformBegin Translate 1 0 0 TransformEnd "), {0, 0, 0});
-  expectNear(at("ActiveTransform EndTime Translate 1 0 0 ActiveTransform All "), {0, 0, 0});
+  expectAt(at("Translate 1 2 3 Scale 2 2 2 Translate 1 0 0 "), {3, 2, 3});
+  expectAt(at("Translate 5 5 5 Identity "), {0, 0, 0});
+  expectAt(at("Rotate 90 0 0 1 Translate 1 0 0 "), {0, 1, 0});
+  expectAt(at("Transform [1 0 0 0 0 1 0 0 0 0 1 0 7 8 9 1] "), {7, 8, 9});
+  expectAt(at("Translate 1 0 0 ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 7 8 9 1] "), {8, 8, 9});
+  expectAt(at("Translate 1 0 0 CoordinateSystem \"here\" Identity CoordSysTransform \"here\" "),
+           {1, 0, 0});
+  expectAt(at("AttributeBegin Translate 1 0 0 AttributeEnd "), {0, 0, 0});
+  expectAt(at("TransformBegin Translate 1 0 0 TransformEnd "), {0, 0, 0});
+  expectAt(at("ActiveTransform EndTime Translate 1 0 0 ActiveTransform All "), {0, 0, 0});
   // LookAt gives camera coordinates: its inverse takes the origin to the eye.
   const Scene scene = readPbrtWorld(std::string("LookAt 1 2 3  1 2 9  0 1 0 ") + kSphere);
-  expectNear(scene.instances[0].toWorld.from.point({0, 0, 0}), {1, 2, 3});
-  expectNear(scene.instances[0].toWorld.point({2, 2, 3}), {1, 0, 0});  // x to the right
+  expectAt(scene.instances[0].toWorld.from.point({0, 0, 0}), {1, 2, 3});
+  expectAt(scene.instances[0].toWorld.point({2, 2, 3}), {1, 0, 0});  // x to the right
   EXPECT_TRUE(contains(findingsOf(readPbrtWorld("TransformTimes 0 1")), "motion"));
 }
 
@@ -144,8 +144,8 @@ TEST(PbrtSyntax, ObjectsAndAttributes) {
       "ReverseOrientation Shape \"sphere\" \"float radius\" 3\n"
       "Option \"bool disablepixeljitter\" true ReverseOrientation Shape \"sphere\"");
   ASSERT_EQ(scene.instances.size(), 4u);
-  expectNear(centreOf(scene, 0), {1, 5, 0});
-  expectNear(centreOf(scene, 1), {1, 10, 0});
+  expectAt(centreOf(scene, 0), {1, 5, 0});
+  expectAt(centreOf(scene, 1), {1, 10, 0});
   EXPECT_NEAR(scene.instances[0].toWorld.vector({1, 0, 0}).x, 2, 1e-6);
   EXPECT_NEAR(scene.instances[2].toWorld.vector({1, 0, 0}).x, 3, 1e-6);
   EXPECT_TRUE(scene.instances[2].flipNormals);
@@ -192,15 +192,15 @@ TEST(PbrtSyntax, ScreenWindowsAndOrthographicCameras) {
                                      "\"float screenwindow\" [0 1 0 1]")
                              .cameras.at(0);
   // The lower left corner looks straight ahead.
-  expectNear(generateRay(shifted, {0, 100}, {}).d, {0, 0, 1});
-  expectNear(generateRay(shifted, {100, 0}, {}).d, normalize(Vec3f(1, 1, 1)));
+  expectAt(generateRay(shifted, {0, 100}, {}).d, {0, 0, 1});
+  expectAt(generateRay(shifted, {100, 0}, {}).d, normalize(Vec3f(1, 1, 1)));
   const Camera ortho =
       readOptions(film + "Camera \"orthographic\" \"float screenwindow\" [-2 2 -2 2]")
           .cameras.at(0);
   const Ray corner = generateRay(ortho, {100, 0}, {});
   EXPECT_NEAR(corner.o.x, 2, 1e-5);
   EXPECT_NEAR(corner.o.y, 2, 1e-5);
-  expectNear(corner.d, {0, 0, 1});
+  expectAt(corner.d, {0, 0, 1});
   EXPECT_TRUE(
       contains(findingsOf(readOptions(film + "Camera \"perspective\" \"float screenwindow\" "
                                              "[-2 2 -1 1]")),
@@ -218,7 +218,7 @@ TEST(PbrtSyntax, SensorsScaleLight) {
       readPbrtText(folder,
                    "Film \"rgb\" \"float iso\" 200 \"float exposuretime\" 0.25 \"string sensor\" "
                    "\"canon_eos_5d\"\nWorldBegin LightSource \"point\" \"rgb I\" [4 2 0]");
-  expectNear(colorOf(scene.emitters.at(0)), {2, 1, 0});
+  expectAt(colorOf(scene.emitters.at(0)), {2, 1, 0});
   EXPECT_TRUE(contains(findingsOf(scene), "canon_eos_5d"));
 }
 

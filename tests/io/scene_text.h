@@ -42,7 +42,8 @@ class SceneText {
         return "rgb " + rgb(t.value);
       case TextureType::bitmap:
         return fmt::format("bitmap({} {} {} {} {} {} {})", image(t.image), int(t.filter),
-                           int(t.wrap), t.alphaChannel, t.channel, t.attribute, uv(t));
+                           int(t.wrapU), int(t.wrapV), t.alphaChannel, t.channel, t.attribute,
+                           uv(t));
       case TextureType::checkerboard:
         return fmt::format("checker({} {} {})", texture(t.a), texture(t.b), uv(t));
       case TextureType::scale:

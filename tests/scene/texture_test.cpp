@@ -21,7 +21,7 @@ Scene imageScene(Filter filter, Wrap wrap) {
   Texture t;
   t.type = TextureType::bitmap;
   t.image = {0};
-  t.filter = filter, t.wrap = wrap;
+  t.filter = filter, t.wrapU = t.wrapV = wrap;
   scene.textures.push_back(t);
   return scene;
 }
@@ -67,6 +67,21 @@ TEST(Texture, WrapModesAtTheBorder) {
   EXPECT_EQ(at(mirror, 1.9f, 0.1f), 1);
   EXPECT_EQ(at(mirror, 2.1f, 0.1f), 1);
   EXPECT_EQ(at(mirror, -1.1f, 0.1f), 3);
+}
+
+TEST(Texture, EachAxisWrapsItsWay) {
+  Scene s = imageScene(Filter::nearest, Wrap::repeat);
+  Texture& t = s.textures[0];
+  t.wrapV = Wrap::clamp;
+  EXPECT_EQ(at(s, 1.1f, 1.2f), 4);  // row 2 goes on upwards, columns begin again
+  EXPECT_EQ(at(s, -0.1f, -0.2f), 3);
+  t.wrapU = Wrap::clamp, t.wrapV = Wrap::mirror;
+  EXPECT_EQ(at(s, 1.1f, 1.2f), 6);
+  EXPECT_EQ(at(s, 1.1f, 1.7f), 3);
+  t.wrapU = Wrap::one, t.wrapV = Wrap::zero;
+  EXPECT_EQ(at(s, 1.1f, 0.2f), 1);
+  EXPECT_EQ(at(s, 0.9f, 1.2f), 0);
+  EXPECT_EQ(at(s, 0.9f, 0.2f), 3);
 }
 
 TEST(Texture, CoordinatesWithoutMeaningAreSafe) {

@@ -18,6 +18,9 @@
 #include "lobelia/app/methods.h"
 #include "lobelia/app/option_checks.h"
 #include "lobelia/app/render.h"
+#include "lobelia/app/signals.h"
+#include "lobelia/app/unused_options.h"
+#include "lobelia/bsdf/captured_fit.h"
 #include "lobelia/builtin/builtin_scenes.h"
 #include "lobelia/io/scene_io.h"
 #include "lobelia/version.h"
@@ -55,6 +58,7 @@ struct CommandLine {
     app.get_formatter()->column_width(32);
     renderCommand = app.add_subcommand("render", "Render a scene to a picture");
     addRenderOptions(*renderCommand, render);
+    renderCommand->callback([this] { render.given = givenOptions(*renderCommand); });
     compareCommand = app.add_subcommand("compare", "Error of an image against a reference");
     compareCommand->add_option("image", compare.image, "Image to judge")
         ->type_name("FILE")
@@ -79,6 +83,7 @@ struct CommandLine {
         ->type_name("FILE");
     fitCommand->add_option("--lobes", fit.lobes, "Spherical Gaussians, at most")
         ->type_name("N")
+        ->check(integerRange(1, kMaxFittedLobes))
         ->capture_default_str();
     fitCommand->add_flag("--json", fit.json, "Print JSON");
     infoCommand = app.add_subcommand("info", "Validate and describe a scene, with all warnings");
@@ -142,7 +147,7 @@ struct CommandLine {
   ExitCode dispatch(const std::string& text) const {
     if (*renderCommand) return app::render(render, global, text);
     if (*compareCommand) return compareImages(compare);
-    if (*fitCommand) return app::fit(fit);
+    if (*fitCommand) return app::fit(fit, global);
     if (*infoCommand) return app::info(info, global);
     if (*sceneCommand) {
       const std::vector<std::string> names = builtin::builtinSceneNames();
@@ -174,12 +179,16 @@ std::string printable(const std::string& message) {
   return text;
 }
 
-// The first word that no command understood, with the nearest option of the command in use.
-std::string unknownArgument(const CLI::App& app, int argc, char** argv) {
+const CLI::App& commandInUse(const CLI::App& app) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
+}
+
+// The first word that no command understood, with the nearest option of the command in use.
+std::string unknownArgument(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command->get_options())
+  for (const CLI::Option* option : commandInUse(app).get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   for (const std::string& extra : app.remaining(true)) {
     if (!extra.starts_with("-")) continue;
@@ -191,6 +200,17 @@ std::string unknownArgument(const CLI::App& app, int argc, char** argv) {
     for (const std::string& extra : app.remaining(true))
       if (extra == argv[i]) return fmt::format("'{}' is one argument too many", extra);
   return "arguments that nothing asks for";
+}
+
+// CLI11 counts where an option stands twice, and says neither that nor what to do.
+std::string wrongCount(const CLI::App& app, const CLI::ArgumentMismatch& error) {
+  for (const CLI::Option* option : commandInUse(app).get_options()) {
+    const size_t most = static_cast<size_t>(option->get_items_expected_max());
+    if (option->count() > most && most > 0)
+      return fmt::format("{} is given {} times; it takes one value", option->get_name(),
+                         option->count());
+  }
+  return error.what();
 }
 
 ExitCode fail(ExitCode code, const std::string& message) {
@@ -209,6 +229,7 @@ ExitCode flushed(ExitCode code) {
 
 int run(int argc, char** argv) {
   ExitCode code = ExitCode::failed;
+  survivableFileLimits();
   CommandLine line;
   try {
     line.requireKnownCommand(argc, argv);
@@ -220,6 +241,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::ExtrasError&) {
     code = fail(ExitCode::usage, fmt::format("{}; `{}` lists what there is",
                                              unknownArgument(line.app, argc, argv), line.help()));
+  } catch (const CLI::ArgumentMismatch& e) {
+    code = fail(ExitCode::usage,
+                fmt::format("{}; `{}` lists what there is", wrongCount(line.app, e), line.help()));
   } catch (const CLI::Error& e) {
     code =
         fail(ExitCode::usage, fmt::format("{}; `{}` lists what there is", e.what(), line.help()));

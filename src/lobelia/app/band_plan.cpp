@@ -23,7 +23,7 @@ BandPlan planBands(const Tracer& tracer, const PixelSet& pixels, int maxDepth, s
   plan.gather.maxDepth = maxDepth;
   plan.gather.direct = options.direct == "lights";
 
-  plan.eye.sampleCount = options.spp > 0 ? options.spp : 16;
+  plan.eye.sampleCount = virtualLightSamples(options);
   plan.eye.maxDepth = maxDepth;
   plan.eye.specularLimit = options.specularLimit;
   if (options.direct == "lights") plan.eye.directSamples = 0;

@@ -17,7 +17,7 @@ struct FitOptions {
   int lobes = 3;
   bool json = false;
 };
-ExitCode fit(const FitOptions& options);
+ExitCode fit(const FitOptions& options, const GlobalOptions& global);
 
 struct InfoOptions {
   SceneOptions scene;

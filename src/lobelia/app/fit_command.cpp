@@ -31,11 +31,7 @@ nlohmann::ordered_json describe(const TabulatedBrdf& table, const CapturedFit& f
 
 }  // namespace
 
-ExitCode fit(const FitOptions& options) {
-  if (options.lobes < 1 || options.lobes > kMaxFittedLobes) {
-    throw UsageError(
-        fmt::format("--lobes {}: there may be 1 to {}", options.lobes, kMaxFittedLobes));
-  }
+ExitCode fit(const FitOptions& options, const GlobalOptions& global) {
   const std::filesystem::path output = options.output;
   const std::string extension = output.extension().string();
   if (!options.output.empty()) {
@@ -50,6 +46,9 @@ ExitCode fit(const FitOptions& options) {
   const CapturedFit fit = fitCaptured(table, options.lobes);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Console console(global.verbosity());
+  if (const std::string doubts = io::doubtsAbout(table, fit); !doubts.empty())
+    Context(&console).warning(doubts);
   nlohmann::ordered_json json = describe(table, fit);
   if (extension == ".xml") io::writeFit(options.output, fit, output.stem().string());
   if (extension == ".json") io::writeFileAtomically(options.output, json.dump(2) + "\n");

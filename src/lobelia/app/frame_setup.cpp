@@ -215,6 +215,19 @@ void requireWritable(const std::string& file) {
   }
 }
 
+void requireWritableFolder(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::exists(status)) {  // "a/b/" is b in a
+    const fs::path path(folder);
+    return requireWritable(path.has_filename() ? folder : path.parent_path().string());
+  }
+  if (!fs::is_directory(status))
+    throw UsageError(fmt::format("cannot write into {}: it is not a folder", folder));
+  requireWritable((fs::path(folder) / "scene.xml").string());
+}
+
 void requireOutputs(const RenderOptions& options) {
   if (options.outputs.empty() && options.replay.empty()) {
     throw UsageError("--output is required: the picture to write, as in -o picture.exr");

@@ -25,6 +25,8 @@ Film makeFilm(const Camera& camera, const RenderOptions& options);
 void composePicture(Film& film, const RenderOptions& options);
 // Checks before hours are spent: known extensions, folders that exist and can be written.
 void requireWritable(const std::string& file);
+// The same for a folder of files, which is made where it is not there yet.
+void requireWritableFolder(const std::string& folder);
 void requireOutputs(const RenderOptions& options);
 // curve: how PNG files are tone-mapped; empty: measured on this film, and kept for later ones.
 void writeOutputs(const Film& film, const RenderOptions& options, std::optional<ToneCurve>& curve,

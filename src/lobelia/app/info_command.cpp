@@ -1,8 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "lobelia/app/commands.h"
+#include "lobelia/app/frame_setup.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/io/scene_io.h"
 #include "lobelia/scene/light_groups.h"
@@ -85,26 +88,70 @@ Json describe(const Scene& scene) {
           {"emitters", emitters},
           {"light_groups", groups},
           {"cameras", cameras},
+          {"variants", scene.variants},
           {"bounds", describe(bounds(scene))},
           {"max_depth", scene.maxDepth},
           {"hash", fmt::format("{:016x}", hash(scene))},
           {"findings", findings}};
 }
 
-std::string text(const Json& value) {
-  if (value.is_null()) return "empty";
+std::string joined(const std::vector<std::string>& words) {
+  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string cameraText(const Json& camera) {
+  const std::string name = camera["name"];
+  return fmt::format("{}{}x{}", name.empty() ? "" : name + " ", camera["width"].get<int>(),
+                     camera["height"].get<int>());
+}
+
+// What the JSON says, for eyes.
+std::string text(const std::string& key, const Json& value) {
+  std::vector<std::string> words;
+  if (key == "emitters") {
+    for (const auto& [type, count] : value.items())
+      words.push_back(fmt::format("{} {}", count.get<int>(), type));
+    return joined(words);
+  }
+  if (key == "cameras") {
+    for (const Json& camera : value) words.push_back(cameraText(camera));
+    return joined(words);
+  }
+  if (key == "bounds") {
+    if (value.is_null()) return "empty";
+    const auto corner = [](const Json& c) {
+      return fmt::format("({:.6g}, {:.6g}, {:.6g})", c[0].get<float>(), c[1].get<float>(),
+                         c[2].get<float>());
+    };
+    return corner(value["lo"]) + " to " + corner(value["hi"]);
+  }
+  if (key == "max_depth" && value.get<int>() < 0) return "unlimited";
+  if (value.is_array()) return joined(value.get<std::vector<std::string>>());
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+// Findings that say the same of several places are one line; --json has them all.
+void printFindings(const Json& findings) {
+  std::vector<std::pair<const Json*, size_t>> lines;
+  std::map<std::pair<std::string, std::string>, size_t> known;
+  for (const Json& finding : findings) {
+    const auto [at, isNew] =
+        known.try_emplace({finding["severity"], finding["message"]}, lines.size());
+    if (isNew) lines.emplace_back(&finding, 0);
+    ++lines[at->second].second;
+  }
+  for (const auto& [finding, count] : lines) {
+    const std::string where = (*finding)["where"];
+    fmt::print("{}: {}{}{}\n", (*finding)["severity"].get<std::string>(),
+               where.empty() ? "" : where + ": ", (*finding)["message"].get<std::string>(),
+               count > 1 ? fmt::format(" ({} times)", count) : "");
+  }
+}
+
 void printText(const Json& json) {
-  for (const auto& [key, value] : json.items()) {
-    if (key == "findings") continue;
-    fmt::print("{:<10} {}\n", key, text(value));
-  }
-  for (const Json& finding : json["findings"]) {
-    fmt::print("{}: {}: {}\n", finding["severity"].get<std::string>(),
-               finding["where"].get<std::string>(), finding["message"].get<std::string>());
-  }
+  for (const auto& [key, value] : json.items())
+    if (key != "findings") fmt::print("{:<12} {}\n", key, text(key, value));
+  printFindings(json["findings"]);
 }
 
 }  // namespace
@@ -124,6 +171,7 @@ ExitCode info(const InfoOptions& options, const GlobalOptions&) {
 ExitCode convert(const ConvertOptions& options, const GlobalOptions& global) {
   Console console(global.verbosity());
   Context context(&console);
+  requireWritableFolder(options.folder);
   io::writeMitsuba(options.folder, loadScene(options.scene, context));
   context.info(fmt::format("wrote {}/scene.xml", options.folder));
   return ExitCode::done;

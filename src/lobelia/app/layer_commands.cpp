@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <map>
@@ -44,6 +45,9 @@ Scaling parseScaling(const std::string& text) {
     p = next + 1;
   }
   if (numbers.size() != 1 && numbers.size() != 4) throw bad();
+  if (std::any_of(numbers.begin(), numbers.end(), [](float n) { return n < 0; }))
+    throw UsageError(
+        fmt::format("--group '{}': light cannot be negative; 0 turns a group off", text));
   Scaling scaling{text.substr(0, equals), Rgb(numbers[0])};
   if (numbers.size() == 4) scaling.factor *= Rgb(numbers[1], numbers[2], numbers[3]);
   return scaling;

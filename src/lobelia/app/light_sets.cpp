@@ -152,6 +152,8 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
   return lights;
 }
 
+int virtualLightSamples(const RenderOptions& options) { return options.spp > 0 ? options.spp : 16; }
+
 int lightSetCount(const RenderOptions& options, int sampleCount) {
   const bool oneSet = !options.saveLights.empty() || !options.loadLights.empty();
   return std::min(options.passes > 0 ? options.passes : oneSet ? 1 : sampleCount, sampleCount);

@@ -26,6 +26,8 @@ LightSettings lightSettings(const RenderOptions& options, int maxDepth, int set)
 VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
                            int set, const RenderOptions& options, Context& context);
 LightParts splitLights(VirtualLights lights);
+// Samples per pixel with virtual lights.
+int virtualLightSamples(const RenderOptions& options);
 // How many sets the samples of a pixel share, and which of them a sample gathers.
 int lightSetCount(const RenderOptions& options, int sampleCount);
 int lightSetOf(int sample, int sampleCount, int setCount);

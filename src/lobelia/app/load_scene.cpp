@@ -76,6 +76,7 @@ Scene loadScene(const SceneOptions& options, Context& context) {
     if (!settings.definitions.empty()) throw UsageError("-D: built-in scenes have no definitions");
     if (!settings.variant.empty())
       throw UsageError("--variant: built-in scenes have no material variants");
+    if (settings.time != 0) throw UsageError("--time: built-in scenes do not move");
     scene = builtin::builtinScene(options.scene, options.detail, options.meshes);
     io::applyEnvironment(scene, settings);
   } else {

@@ -4,7 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
+#include <limits>
+
+#include "lobelia/base/error.h"
 
 namespace lobelia::app {
 
@@ -23,21 +27,41 @@ CLI::Validator finiteNumber(double least, double most, bool leastIncluded) {
   return CLI::Validator(check, "");
 }
 
-CLI::Validator seedNumber() {
+namespace {
+
+// Decimal digits only: CLI11 would take 0x10, cut what is too large and wrap what is negative.
+template <class T>
+CLI::Validator integer(T least, T most, const std::string& mostText) {
   return CLI::Validator(
-      [](const std::string& text) {
-        uint64_t value = 0;
+      [=](const std::string& text) {
+        T value{};
         const char* end = text.data() + text.size();
         const auto [next, error] = std::from_chars(text.data(), end, value);
-        return error == std::errc() && next == end
-                   ? std::string()
-                   : fmt::format("'{}' is not an integer from 0 to 2^64-1", text);
+        const bool good = error == std::errc() && next == end && value >= least && value <= most;
+        return good ? std::string()
+                    : fmt::format("'{}' is not an integer from {} to {}", text, least, mostText);
       },
       "");
 }
 
+}  // namespace
+
+CLI::Validator seedNumber() {
+  return integer<uint64_t>(0, std::numeric_limits<uint64_t>::max(), "2^64-1");
+}
+
 CLI::Validator integerRange(int64_t least, int64_t most) {
-  return CLI::Range(least, most).description("");
+  return integer<int64_t>(least, most, std::to_string(most));
+}
+
+CLI::Validator oneOf(const std::vector<std::string>& values) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        if (std::find(values.begin(), values.end(), text) != values.end()) return std::string();
+        return fmt::format("'{}' is not one of {}{}", text, fmt::join(values, ", "),
+                           suggestion(text, values));
+      },
+      fmt::format("{{{}}}", fmt::join(values, ",")));
 }
 
 CLI::Validator byteCount() {

@@ -15,12 +15,14 @@ namespace lobelia::app {
 
 // CLI::Range lets NaN through and prints limits such as 1e308 in full.
 CLI::Validator finiteNumber(double least, double most = HUGE_VAL, bool leastIncluded = true);
-// An integer that CLI11 can convert safely: it wraps negative ones and cuts those too large.
+// Any seed.
 CLI::Validator seedNumber();
-// CLI::Range without the limits in --help, where they say little.
+// An integer within limits, which --help leaves out: they say little there.
 CLI::Validator integerRange(int64_t least, int64_t most);
 // Turns bytes, or K, M, G of them ("512M"; 1024 to the next), into a plain number of bytes.
 CLI::Validator byteCount();
+// One of a closed set.
+CLI::Validator oneOf(const std::vector<std::string>& values);
 // Makes a closed set known to --help, completion and documents. It accepts everything: the command
 // itself refuses what is not in the set, with a better message than CLI11's.
 CLI::Validator offered(const std::vector<std::string>& values);

@@ -13,6 +13,7 @@
 #include "lobelia/app/render_frame.h"
 #include "lobelia/app/replay.h"
 #include "lobelia/app/signals.h"
+#include "lobelia/app/unused_options.h"
 #include "lobelia/base/parallel.h"
 
 namespace lobelia::app {
@@ -72,11 +73,13 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
   requireOwnLight(options);
   requireFrames(options);
   requireReplay(options);
+  requireUsedResults(options);
   if (!options.display.empty()) parseViewerAddress(options.display);
   const ThreadLimit threads(global.threads);
   Console console(global.verbosity());
   Context context(&console);
   context.seed = options.seed;
+  for (const std::string& line : unusedOptions(options)) context.warning(line);
   const SignalGuard signals(context);
   try {
     return renderUntilCancelled(options, commandLine, global.verbose, console, context);

@@ -149,7 +149,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->capture_default_str();
   c.add_option("--direct", o.direct, "Direct light by next-event estimation (nee) or by lights")
       ->type_name("HOW")
-      ->check(CLI::IsMember({"nee", "lights"}))
+      ->check(oneOf({"nee", "lights"}))
       ->capture_default_str();
   c.add_option("--radius", o.radius,
                "Radius of spherical lights over the distance of their tenth neighbour; default: "
@@ -200,7 +200,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->capture_default_str();
   c.add_option("--component", o.component, "Which light: all, direct or indirect")
       ->type_name("PART")
-      ->check(CLI::IsMember({"all", "direct", "indirect"}))
+      ->check(oneOf({"all", "direct", "indirect"}))
       ->capture_default_str();
   c.add_option("--seed", o.seed, "Seed of all randomness")
       ->type_name("N")

@@ -61,7 +61,8 @@ struct RenderOptions {
   int frames = 0;     // of a camera path or turntable; 0: one picture
   std::string frame;  // K or A-B: only these of them
   bool turntable = false;
-  std::string display;  // HOST:PORT of a viewer
+  std::string display;             // HOST:PORT of a viewer
+  std::vector<std::string> given;  // long names of what stands on the command line
 };
 
 struct GlobalOptions {

@@ -26,6 +26,8 @@ void install(void (*handler)(int)) {
 
 }  // namespace
 
+void survivableFileLimits() { std::signal(SIGXFSZ, SIG_IGN); }
+
 SignalGuard::SignalGuard(Context& context) : outer_(activeContext.load()) {
   if (!outer_) receivedSignal = 0;
   activeContext = &context;

@@ -7,6 +7,10 @@
 
 namespace lobelia::app {
 
+// A file that grows past the limit of a process (ulimit -f) fails like any other write instead of
+// ending the program at once, temporary files and all.
+void survivableFileLimits();
+
 // Guards nest: signals cancel the innermost one's context, and the outer one's when that is gone.
 class SignalGuard {
  public:

@@ -27,7 +27,7 @@ struct GatherSettings {
 struct GatherParts {
   // Light's class x receiver's lobes: diffuse (with sheen and diffuse transmission) or glossy.
   static constexpr size_t kTypes = 10;  // [2 * class + lobes], classes in the order of LightClass
-  size_t groupCount = 0;               // of VirtualLights::groups; 0: not asked for
+  size_t groupCount = 0;                // of VirtualLights::groups; 0: not asked for
   bool byType = false, countRays = false;
   // Set, not added to, by gatherAll().
   std::vector<Rgb> groups;     // [group * points + point]
@@ -37,8 +37,9 @@ struct GatherParts {
 
 // Adds to radiance[i] the light that receiver point i sends to its pixel (weight included) from all
 // lights. Counts "shadow_rays", "node_pairs_shaded" (pairs found visible) and "nonfinite" (pairs
-// left out because their value was not finite); books seconds to "visibility" and "shade". When
-// cancelled, a point has its whole sum or nothing added. parts: see there; null: none.
+// left out because their value was not finite; the first pixel with one: noteNonFinitePixel());
+// books seconds to "visibility" and "shade". When cancelled, a point has its whole sum or nothing
+// added. parts: see there; null: none.
 void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,
                const GatherSettings& settings, std::span<Rgb> radiance, Context& context,
                GatherParts* parts = nullptr);

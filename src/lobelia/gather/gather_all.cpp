@@ -16,6 +16,7 @@
 // double over the blocks: it does not depend on threads, nor on how points share tiles.
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <optional>
 
 #include "lobelia/base/parallel.h"
@@ -31,6 +32,7 @@ using namespace gather;
 
 struct Tally {
   uint64_t rays = 0, pairs = 0, nonfinite = 0;
+  std::optional<uint32_t> firstBad;  // the smallest pixel with a pair that was not finite
   int64_t visibilityNs = 0, shadeNs = 0;
 };
 
@@ -63,7 +65,10 @@ class TileGather {
     if (parts) parts->write();
     tally->pairs += sums.pairs;
     tally->nonfinite += sums.nonfinite;
-    for (size_t s = 0; s < tile.strips.size(); ++s) write(tile.strips[s], sums.strips[s], radiance);
+    for (size_t s = 0; s < tile.strips.size(); ++s) {
+      write(tile.strips[s], sums.strips[s], radiance);
+      if (sums.strips[s].nonfinite != 0) noteFirstBad(tile.strips[s], sums.strips[s], tally);
+    }
     return true;
   }
 
@@ -100,6 +105,14 @@ class TileGather {
       radiance[i] += receivers_.points[i].weight * Rgb(static_cast<float>(sum.x[lane]),
                                                        static_cast<float>(sum.y[lane]),
                                                        static_cast<float>(sum.z[lane]));
+    }
+  }
+
+  void noteFirstBad(const PointStrip& strip, const TileSums::Strip& sum, Tally* tally) const {
+    for (size_t lane = 0; lane < kStrip; ++lane) {
+      if (!((strip.active & sum.nonfinite) >> lane & 1)) continue;
+      const uint32_t pixel = receivers_.points[strip.point[lane]].pixel;
+      if (!tally->firstBad || pixel < *tally->firstBad) tally->firstBad = pixel;
     }
   }
 
@@ -146,6 +159,7 @@ void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLi
   std::atomic<uint64_t> rays{0}, pairs{0}, nonfinite{0};
   std::atomic<int64_t> visibilityNs{0}, shadeNs{0};
   std::atomic<size_t> done{0};
+  std::mutex badMutex;
   parallelFor(tiles, 1, [&](size_t i) {
     if (context.cancelled()) return;
     if (!wanted(receivers, i * size, std::min(points, (i + 1) * size), settings)) return;
@@ -154,6 +168,10 @@ void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLi
     rays += tally.rays;
     pairs += tally.pairs;
     nonfinite += tally.nonfinite;
+    if (tally.firstBad) {
+      const std::lock_guard lock(badMutex);
+      noteNonFinitePixel(*tally.firstBad, context);
+    }
     visibilityNs += tally.visibilityNs;
     shadeNs += tally.shadeNs;
     context.progress("gather", static_cast<double>(++done) / static_cast<double>(tiles));

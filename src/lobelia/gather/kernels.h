@@ -31,6 +31,7 @@ size_t keepVisible(const Tile& tile, const LightBlock& block, const Tracer& trac
 struct TileSums {
   struct Strip {
     double x[kStrip] = {}, y[kStrip] = {}, z[kStrip] = {};
+    uint32_t nonfinite = 0;  // bit per lane that left out a pair
   };
   std::vector<Strip> strips;
   uint64_t pairs = 0, nonfinite = 0;

@@ -169,17 +169,20 @@ inline void applyPattern(const g::PointStrip& strip, size_t lane, const g::Prepa
 struct LaneSums {
   g::TileSums* sums;
   V3<Vf> sum{Vf(0.f), Vf(0.f), Vf(0.f)};
+  uint32_t nonfiniteLanes = 0;
   HWY_INLINE void add(size_t, V3<Vf> value) {
     sum.x += value.x;
     sum.y += value.y;
     sum.z += value.z;
   }
+  void markNonfinite(uint32_t lanes) { nonfiniteLanes |= lanes; }
   void finish(size_t s, size_t lane) const {
     alignas(64) float x[kLanes], y[kLanes], z[kLanes];
     sum.x.store(x);
     sum.y.store(y);
     sum.z.store(z);
     g::TileSums::Strip& strip = sums->strips[s];
+    strip.nonfinite |= nonfiniteLanes << lane;
     for (size_t k = 0; k < kLanes; ++k) {
       strip.x[lane + k] += static_cast<double>(x[k]);
       strip.y[lane + k] += static_cast<double>(y[k]);
@@ -198,6 +201,7 @@ struct LaneValues {
     value.y.store(&values->y[i]);
     value.z.store(&values->z[i]);
   }
+  void markNonfinite(uint32_t) {}
   void finish(size_t, size_t) const {}
 };
 
@@ -228,13 +232,16 @@ void sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, 
                                 select(good, value.z, Vf(0.f))});
     const size_t visibleCount = hn::CountTrue(Df(), visible.m);
     out->pairs += visibleCount;
-    out->nonfinite += visibleCount - hn::CountTrue(Df(), good.m);
+    const size_t goodCount = hn::CountTrue(Df(), good.m);
+    if (goodCount == visibleCount) continue;
+    out->nonfinite += visibleCount - goodCount;
+    sink->markNonfinite(pairs->mask[i] & ~maskBits(good));
   }
 }
 
 // spherical-inl.h
-void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane,
-                    const g::LightBlock& block, PairScratch* pairs);
+void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane, const g::LightBlock& block,
+                    PairScratch* pairs);
 
 inline LaneSums sinkFor(g::TileSums* sums, size_t, size_t, const g::PairMasks&) { return {sums}; }
 inline LaneValues sinkFor(g::PairValues* values, size_t s, size_t lane, const g::PairMasks& masks) {

@@ -24,57 +24,14 @@
 #include "lobelia/io/atmosphere.h"
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/io/atmosphere_air.h"
 #include "lobelia/io/spectrum.h"
 
 namespace lobelia::io {
+
+using namespace air;
+
 namespace {
-
-constexpr double kPiD = 3.14159265358979323846;
-constexpr double kEarth = 6371, kTop = 70;  // km
-constexpr double kAirHeight = 8, kHazeHeight = 1.2, kOzoneAltitude = 22, kOzoneWidth = 5;
-constexpr double kHazeAsymmetry = 0.7, kHazeAlbedo = 0.95;
-
-double rayleighPhase(double c) { return 0.75 * (1 + c * c); }
-double hazePhase(double c) {
-  constexpr double g = kHazeAsymmetry;
-  const double d = 1 + g * g - 2 * g * c;
-  return (1 - g * g) / (d * std::sqrt(d));
-}
-
-// Densities whose vertical integral is one (ozone's: once divided by its own integral).
-double airDensity(double h) { return std::exp(-h / kAirHeight) / kAirHeight; }
-double hazeDensity(double h) { return std::exp(-h / kHazeHeight) / kHazeHeight; }
-double ozoneDensity(double h) {
-  const double x = (h - kOzoneAltitude) / kOzoneWidth;
-  return std::exp(-0.5 * x * x);
-}
-
-// Way to the top of the atmosphere (or, from above ground, past the earth).
-double wayToTop(double altitude, double cosine) {
-  const double r = kEarth + altitude, b = r * cosine;
-  const double top = kEarth + kTop;
-  return std::max(0.0, -b + std::sqrt(std::max(0.0, b * b + top * top - r * r)));
-}
-double altitudeAt(double altitude, double cosine, double t) {
-  const double r = kEarth + altitude;
-  // sqrt(r^2 + 2 r t c + t^2) - R without cancellation.
-  const double x = (2 * r * t * cosine + t * t + altitude * (2 * kEarth + altitude)) / kEarth;
-  return std::max(0.0, x / (1 + std::sqrt(1 + x / kEarth)));
-}
-double horizonCosine(double altitude) {
-  const double s = kEarth / (kEarth + altitude);
-  return -std::sqrt(std::max(0.0, 1 - s * s));
-}
-
-// Mean over the azimuth of a phase function between propagation cosines a and b.
-template <class Phase>
-double azimuthMean(const Phase& phase, double a, double b) {
-  constexpr int kSteps = 64;
-  const double s = std::sqrt(std::max(0.0, (1 - a * a) * (1 - b * b)));
-  double sum = 0;
-  for (int i = 0; i < kSteps; ++i) sum += phase(a * b + s * std::cos((i + 0.5) * kPiD / kSteps));
-  return sum / kSteps;
-}
 
 // Nodes and weights of Gauss and Legendre on [0, 1].
 void gaussLegendre(size_t n, double* x, double* w) {
@@ -254,87 +211,6 @@ Atmosphere::Columns Atmosphere::towardsSun(double altitude, double cosine, bool*
     sum.ozone += e.weight * c.ozone;
   }
   return sum;
-}
-
-// Successive orders: each pass scatters the field of the last one and carries the result through
-// the layers; the sum converges like a geometric series in the albedo.
-void Atmosphere::solve(size_t wavelength, double albedo) {
-  constexpr size_t kHalf = kStreams / 2;
-  using Matrix = std::array<std::array<double, kStreams>, kStreams>;
-  Matrix air, haze;
-  std::array<double, kStreams> airFromSun, hazeFromSun;
-  for (size_t i = 0; i < kStreams; ++i) {
-    double airSum = 0, hazeSum = 0;
-    for (size_t j = 0; j < kStreams; ++j) {
-      air[i][j] = weight_[j] * azimuthMean(rayleighPhase, mu_[i], mu_[j]);
-      haze[i][j] = weight_[j] * azimuthMean(hazePhase, mu_[i], mu_[j]);
-      airSum += air[i][j], hazeSum += haze[i][j];
-    }
-    for (size_t j = 0; j < kStreams; ++j) air[i][j] /= airSum, haze[i][j] /= hazeSum;
-    airFromSun[i] = azimuthMean(rayleighPhase, mu_[i], -sunCosine_);
-    hazeFromSun[i] = azimuthMean(hazePhase, mu_[i], -sunCosine_);
-  }
-
-  // Layer k lies between levels k and k + 1.
-  std::array<double, kLevels> airDepth, hazeDepth, total, beam;
-  for (size_t k = 0; k < kLevels; ++k) {
-    const double lo = altitudes_[k], hi = altitudes_[k + 1], middle = 0.5 * (lo + hi);
-    airDepth[k] = rayleigh_[wavelength] * (std::exp(-lo / kAirHeight) - std::exp(-hi / kAirHeight));
-    const double taken =
-        hazeExtinction_[wavelength] * (std::exp(-lo / kHazeHeight) - std::exp(-hi / kHazeHeight));
-    hazeDepth[k] = kHazeAlbedo * taken;
-    total[k] = airDepth[k] + taken +
-               ozone_[wavelength] * ozoneDensity(middle) * ozoneNorm_ * (hi - lo) + 1e-12;
-    bool blocked;
-    const Columns columns = towardsSun(middle, sunCosine_, &blocked);
-    beam[k] =
-        blocked ? 0
-                : solarSpectrum()[wavelength] * std::exp(-depth(wavelength, columns)) / (4 * kPiD);
-  }
-  bool set;
-  const Columns columns = towardsSun(0, sunCosine_, &set);
-  const double direct = set || sunCosine_ <= 0 ? 0
-                                               : sunCosine_ * solarSpectrum()[wavelength] *
-                                                     std::exp(-depth(wavelength, columns));
-
-  Field& field = fields_[wavelength];
-  for (auto& level : field) level.fill(0);
-  for (int order = 0; order < 200; ++order) {
-    std::array<std::array<double, kStreams>, kLevels> source;
-    for (size_t k = 0; k < kLevels; ++k) {
-      for (size_t i = 0; i < kStreams; ++i) {
-        double fromAir = airFromSun[i] * beam[k], fromHaze = hazeFromSun[i] * beam[k];
-        for (size_t j = 0; j < kStreams; ++j) {
-          const double radiance = 0.5 * (field[k][j] + field[k + 1][j]);
-          fromAir += air[i][j] * radiance;
-          fromHaze += haze[i][j] * radiance;
-        }
-        source[k][i] = (airDepth[k] * fromAir + hazeDepth[k] * fromHaze) / total[k];
-      }
-    }
-    double change = 0, largest = 0, flux = direct;
-    const auto update = [&](double* value, double now) {
-      change = std::max(change, std::abs(now - *value));
-      largest = std::max(largest, now);
-      *value = now;
-    };
-    for (size_t j = 0; j < kHalf; ++j) {
-      update(&field[kLevels][j], 0);
-      for (size_t k = kLevels; k-- > 0;) {
-        const double kept = std::exp(total[k] / mu_[j]);
-        update(&field[k][j], field[k + 1][j] * kept + source[k][j] * (1 - kept));
-      }
-      flux -= 2 * kPiD * weight_[j] * mu_[j] * field[0][j];
-    }
-    for (size_t j = kHalf; j < kStreams; ++j) {
-      update(&field[0][j], albedo * flux / kPiD);
-      for (size_t k = 0; k < kLevels; ++k) {
-        const double kept = std::exp(-total[k] / mu_[j]);
-        update(&field[k + 1][j], field[k][j] * kept + source[k][j] * (1 - kept));
-      }
-    }
-    if (change <= 1e-5 * largest) break;
-  }
 }
 
 std::vector<Rgb> Atmosphere::radiance(double cosZenith, std::span<const double> azimuths) const {

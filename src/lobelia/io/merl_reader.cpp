@@ -76,6 +76,23 @@ std::string describeFit(const TabulatedBrdf& table, const CapturedFit& fit) {
       table.aboveCount);
 }
 
+std::string doubtsAbout(const TabulatedBrdf& table, const CapturedFit& fit) {
+  // A tenth of a cube root is a third of the reflectance: differences that one sees side by side.
+  constexpr double kMostError = 0.1, kMostEnergyError = 0.05;
+  if (fit.error > kMostError) {
+    return fmt::format(
+        "the fit is poor: off by {:.1f} % of the cube roots of the reflected light (good fits are "
+        "below 5 %); more --lobes may help, but not for light that returns whence it came",
+        100 * fit.error);
+  }
+  if (fit.energyError > kMostEnergyError)
+    return fmt::format("the fit's energy is off by {:.1f} %", 100 * fit.energyError);
+  if (2 * table.invalidCount > table.aboveCount)
+    return fmt::format("{} of the table's {} values were not measured; the fit guesses there",
+                       table.invalidCount, table.aboveCount);
+  return "";
+}
+
 Material materialOf(const CapturedFit& fit) {
   Material m;
   m.type = MaterialType::sphericalGaussians;

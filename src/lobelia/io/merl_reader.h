@@ -20,6 +20,8 @@ void writeMerl(const std::string& file, const TabulatedBrdf& table);
 
 // "3 lobes, error 4.1 %, energy within 0.3 % ...": for findings and the command line.
 std::string describeFit(const TabulatedBrdf& table, const CapturedFit& fit);
+// What a user should know before trusting the fit; "" when it is close.
+std::string doubtsAbout(const TabulatedBrdf& table, const CapturedFit& fit);
 Material materialOf(const CapturedFit& fit);
 // A Mitsuba file with nothing but this material, to be included by scenes: `<include
 // filename=.../>`, then `<ref id=.../>`. Written by io/mitsuba/captured.cpp.

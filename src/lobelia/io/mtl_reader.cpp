@@ -121,7 +121,7 @@ class MtlBuilder {
     Texture out;
     out.type = TextureType::bitmap;
     out.channel = channel;
-    if (option.clamp) out.wrap = Wrap::clamp;
+    if (option.clamp) out.wrapU = out.wrapV = Wrap::clamp;
     for (int r = 0; r < 2; ++r) {
       out.uvMatrix[r][r] = finite(option.scale[r], 1);
       out.uvMatrix[r][2] = finite(option.origin_offset[r], 0);

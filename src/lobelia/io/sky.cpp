@@ -16,20 +16,21 @@ constexpr double kPiD = 3.14159265358979323846;
 constexpr int kMinWidth = 8, kMaxWidth = 2048;  // there is no finer detail than haze about the sun
 constexpr int kMaxAzimuths = 512;               // of half a turn; columns between are interpolated
 
-void check(const SkySettings& s, const Location& where) {
-  const auto refuse = [&](const std::string& what) { throw InputError(where, what); };
+// What is out of range; "" when nothing is.
+std::string problemOf(const SkySettings& s) {
   if (!(s.turbidity >= 1 && s.turbidity <= 10))
-    refuse(fmt::format("a turbidity of {:g}; it lies between 1 (no haze) and 10", s.turbidity));
+    return fmt::format("a turbidity of {:g}; it lies between 1 (no haze) and 10", s.turbidity);
   const double len = lengthSquared(s.sun);
   if (!(len > 0) || !std::isfinite(len))
-    refuse("the direction to the sun must be finite and not zero");
+    return "the direction to the sun must be finite and not zero";
   if (!(minComponent(s.albedo) >= 0 && maxComponent(s.albedo) <= 1))
-    refuse("the ground's albedo must lie between 0 and 1");
+    return "the ground's albedo must lie between 0 and 1";
   if (!(s.stretch >= 1 && s.stretch <= 2))
-    refuse(fmt::format("a stretch of {:g}; it lies between 1 and 2", s.stretch));
+    return fmt::format("a stretch of {:g}; it lies between 1 and 2", s.stretch);
   if (s.width < kMinWidth || s.width > kMaxWidth)
-    refuse(fmt::format("a resolution of {}; it lies between {} and {}", s.width, kMinWidth,
-                       kMaxWidth));
+    return fmt::format("a resolution of {}; it lies between {} and {}", s.width, kMinWidth,
+                       kMaxWidth);
+  return "";
 }
 
 // One row of the image: interpolated between azimuths from the sun's, of which there are as many
@@ -78,7 +79,8 @@ std::optional<std::array<double, 4>> parseFour(const std::string& text) {
 }  // namespace
 
 Sky makeSky(const SkySettings& settings, const Location& where) {
-  check(settings, where);
+  if (const std::string problem = problemOf(settings); !problem.empty())
+    throw InputError(where, problem);
   const Vec3d sun = settings.sun / length(settings.sun);
   const double zenith = std::acos(std::clamp(sun.y, -1.0, 1.0));
   const double azimuth = std::atan2(sun.x, -sun.z);
@@ -157,6 +159,8 @@ void applySky(Scene& scene, const std::string& text) {
   settings.sun = {double{sun.x}, double{sun.y}, double{sun.z}};
   settings.below = BelowHorizon::ground;
   const Location where{"--sky " + text, 0, 0};
+  if (const std::string problem = problemOf(settings); !problem.empty())
+    throw UsageError(fmt::format("--sky {}: {}", text, problem));
   const Sky sky = makeSky(settings, where);
 
   if (maxComponent(sky.sunIrradiance) <= 0) {

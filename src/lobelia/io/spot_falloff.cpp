@@ -64,7 +64,7 @@ void shapeSpot(Scene& scene, Emitter& light, float cutoff, const std::string& na
   if (light.pattern.valid()) return;
   Texture texture;
   texture.type = TextureType::bitmap;
-  texture.wrap = Wrap::clamp;
+  texture.wrapU = texture.wrapV = Wrap::clamp;
   texture.image = add(scene, tangentPlane(name, static_cast<double>(cutoff), falloff));
   scene.textures.push_back(std::move(texture));
   light.pattern = {static_cast<uint32_t>(scene.textures.size() - 1)};

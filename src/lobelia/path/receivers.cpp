@@ -177,11 +177,14 @@ Receivers traceReceivers(const Tracer& tracer, const EmitterSampler& emitters, c
   context.statistics.addCount("specular_connections", total.specularConnections);
   context.statistics.addCount("paths_cut", total.cut);
   context.statistics.addCount("nonfinite", total.nonFinite);
-  // As renderPath() has it, over all calls.
-  const double known = context.statistics.value("first_nonfinite_pixel");  // 0: none
-  if (firstBad != kNoPixel && (known == 0 || 1.0 + firstBad < known))
-    context.statistics.setValue("first_nonfinite_pixel", 1.0 + firstBad);
+  if (firstBad != kNoPixel) noteNonFinitePixel(firstBad, context);
   return concatenate(tiles);
+}
+
+void noteNonFinitePixel(uint32_t pixel, Context& context) {
+  const double known = context.statistics.value("first_nonfinite_pixel");  // 0: none
+  if (known == 0 || 1.0 + pixel < known)
+    context.statistics.setValue("first_nonfinite_pixel", 1.0 + pixel);
 }
 
 }  // namespace lobelia

@@ -10,7 +10,8 @@
 
 namespace lobelia {
 
-// A point that gathers. A surface whose lobes lie in several frames leaves one in each. Its rough lobes are lobes[firstLobe, firstLobe + lobeCount).
+// A point that gathers. A surface whose lobes lie in several frames leaves one in each. Its rough
+// lobes are lobes[firstLobe, firstLobe + lobeCount).
 struct ReceiverPoint {
   Vec3f p;
   Vec3f ng;          // geometric normal, outside
@@ -54,5 +55,9 @@ struct EyeSettings {
 // whose indirect light remains to be gathered.
 Receivers traceReceivers(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                          const EyeSettings& settings, int y0, int y1, Film& film, Context& context);
+
+// A sample of this pixel was not finite: sets "first_nonfinite_pixel" to 1 + the smallest pixel of
+// all calls, which --replay can show.
+void noteNonFinitePixel(uint32_t pixel, Context& context);
 
 }  // namespace lobelia

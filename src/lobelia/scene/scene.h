@@ -30,10 +30,11 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<Camera> cameras;
-  std::string integrator;         // hint of the file
-  int maxDepth = -1;              // hint of the file; -1: unlimited
+  std::string integrator;  // hint of the file
+  int maxDepth = -1;       // hint of the file; -1: unlimited
   bool hideEmitters = false;
-  std::vector<Finding> findings;  // warnings of reading
+  std::vector<Finding> findings;      // warnings of reading
+  std::vector<std::string> variants;  // names of the sets of materials that the file offers
 
   const Image& operator[](ImageHandle h) const { return images[h.index]; }
   const Texture& operator[](TextureHandle h) const { return textures[h.index]; }

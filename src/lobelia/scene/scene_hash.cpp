@@ -64,7 +64,8 @@ class StreamHash {
     array(i.pixels);
   }
   void add(const Texture& t) {
-    add(t.type), add(t.value), add(t.image), add(t.filter), add(t.wrap), add(t.alphaChannel);
+    add(t.type), add(t.value), add(t.image), add(t.filter), add(t.wrapU), add(t.wrapV),
+        add(t.alphaChannel);
     for (const auto& row : t.uvMatrix) {
       for (float v : row) add(v);
     }

@@ -53,8 +53,8 @@ int wrapped(int i, int n, Wrap wrap) {
 }
 
 Rgb texel(const Texture& t, const Image& image, int x, int y) {
-  const int i = wrapped(x, image.width, t.wrap), j = wrapped(y, image.height, t.wrap);
-  if (i < 0 || j < 0) return Rgb(t.wrap == Wrap::one ? 1.f : 0.f);
+  const int i = wrapped(x, image.width, t.wrapU), j = wrapped(y, image.height, t.wrapV);
+  if (i < 0 || j < 0) return Rgb((i < 0 ? t.wrapU : t.wrapV) == Wrap::one ? 1.f : 0.f);
   const bool hasAlpha = image.channels == 2 || image.channels == 4;
   if (t.alphaChannel && hasAlpha) return Rgb(image.at(i, j, image.channels - 1));
   if (t.channel >= 3) return Rgb(hasAlpha ? image.at(i, j, image.channels - 1) : 1.f);

@@ -16,14 +16,19 @@ struct Image {
   std::vector<float> pixels;
   float at(int x, int y, int c) const {
     return pixels[(static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) *
-                      static_cast<size_t>(channels) + static_cast<size_t>(c)];
+                      static_cast<size_t>(channels) +
+                  static_cast<size_t>(c)];
   }
 };
 
 enum class Wrap : uint8_t { repeat, mirror, clamp, zero, one };
 enum class Filter : uint8_t { nearest, bilinear };
 enum class TextureType : uint8_t {
-  constant, bitmap, checkerboard, scale, meshAttribute,
+  constant,
+  bitmap,
+  checkerboard,
+  scale,
+  meshAttribute,
   product,  // a b
   mix,      // a (1 - c) + b c
   power,    // a^scale
@@ -42,16 +47,17 @@ struct TextureContext {
 // colour). Nested textures are handles.
 struct Texture {
   TextureType type = TextureType::constant;
-  Rgb value{};                  // constant
-  ImageHandle image;            // bitmap
+  Rgb value{};        // constant
+  ImageHandle image;  // bitmap
   Filter filter = Filter::bilinear;
-  Wrap wrap = Wrap::repeat;
-  bool alphaChannel = false;    // bitmap used as opacity: read the image's alpha when it has one
+  Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+  bool alphaChannel = false;  // bitmap used as opacity: read the image's alpha when it has one
   float uvMatrix[2][3] = {{1, 0, 0}, {0, 1, 0}};  // uv' = M (u,v,1)
-  int channel = -1;             // bitmap, meshAttribute: only this channel, as grey; -1: colour
-  TextureHandle a, b, c;        // checkerboard: its two colours a, b; scale, power: a
-  float scale = 1;              // scale: factor; power: exponent
-  // meshAttribute: "vertex_color", "face_x"...; bitmap: where uv come from when not empty ("vertex_uv1")
+  int channel = -1;       // bitmap, meshAttribute: only this channel, as grey; -1: colour
+  TextureHandle a, b, c;  // checkerboard: its two colours a, b; scale, power: a
+  float scale = 1;        // scale: factor; power: exponent
+  // meshAttribute: "vertex_color", "face_x"...; bitmap: where uv come from when not empty
+  // ("vertex_uv1")
   std::string attribute;
 };
 
@@ -60,15 +66,15 @@ struct ColorParam {
   Rgb value{};
   TextureHandle texture;
   ColorParam() = default;
-  ColorParam(Rgb v) : value(v) {}                      // NOLINT: parameters are given as constants
-  ColorParam(TextureHandle t) : texture(t) {}          // NOLINT
+  ColorParam(Rgb v) : value(v) {}              // NOLINT: parameters are given as constants
+  ColorParam(TextureHandle t) : texture(t) {}  // NOLINT
 };
 struct FloatParam {
   float value = 0;
   TextureHandle texture;
   FloatParam() = default;
-  FloatParam(float v) : value(v) {}                    // NOLINT
-  FloatParam(TextureHandle t) : texture(t) {}          // NOLINT
+  FloatParam(float v) : value(v) {}            // NOLINT
+  FloatParam(TextureHandle t) : texture(t) {}  // NOLINT
 };
 
 struct Scene;

@@ -17,6 +17,9 @@ bool isPlain(const Texture& t) {
          t.uvMatrix[1][0] == 0 && t.uvMatrix[1][1] == 1 && t.uvMatrix[1][2] == 0;
 }
 
+// Does a unit square of uv see each texel as often as any other?
+bool repeatsTexels(Wrap wrap) { return wrap != Wrap::zero && wrap != Wrap::one; }
+
 Rgb toRgb(Vec3d sum, double count) {
   return {static_cast<float>(sum.x / count), static_cast<float>(sum.y / count),
           static_cast<float>(sum.z / count)};
@@ -100,7 +103,7 @@ Rgb mean(const Scene& scene, TextureHandle handle) {
     case TextureType::constant:
       return t.value;
     case TextureType::bitmap:
-      return isPlain(t) && t.wrap != Wrap::zero && t.wrap != Wrap::one
+      return isPlain(t) && repeatsTexels(t.wrapU) && repeatsTexels(t.wrapV)
                  ? texelMean(t, scene[t.image])
                  : gridMean(scene, handle);
     case TextureType::scale:

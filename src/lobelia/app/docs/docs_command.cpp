@@ -9,6 +9,7 @@
 
 #include "lobelia/app/docs/completion.h"
 #include "lobelia/app/docs/writers.h"
+#include "lobelia/app/option_checks.h"
 #include "lobelia/base/file.h"
 
 namespace lobelia::app {
@@ -59,7 +60,7 @@ void addDocsOptions(CLI::App& c, DocsOptions& o) {
   c.add_option("kind", o.kind, "What to print; files: write man pages and completion to a folder")
       ->required()
       ->type_name("KIND")
-      ->check(CLI::IsMember({"man", "markdown", "gallery", "files"}));
+      ->check(oneOf({"man", "markdown", "gallery", "files"}));
   c.add_option("argument", o.argument, "man: a command (none: the program); files: the folder")
       ->type_name("COMMAND|FOLDER");
 }
@@ -70,7 +71,7 @@ void addCompletionOptions(CLI::App& c, CompletionOptions& o) {
   c.add_option("shell", o.shell, "Shell that will complete")
       ->required()
       ->type_name("SHELL")
-      ->check(CLI::IsMember(shells));
+      ->check(oneOf(shells));
 }
 
 ExitCode docs(const DocsOptions& options, const CLI::App& app) {

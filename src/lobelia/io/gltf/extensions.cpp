@@ -10,6 +10,16 @@
 namespace lobelia::io::gltf {
 namespace {
 
+// Major version, or -1.
+int majorVersion(const std::string& text) {
+  int major = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), major);
+  const bool good = error == std::errc() && (end == text.data() + text.size() || *end == '.');
+  return good ? major : -1;
+}
+
+}  // namespace
+
 const std::vector<std::string>& knownExtensions() {
   static const std::vector<std::string> known{"EXT_mesh_gpu_instancing",
                                               "EXT_meshopt_compression",
@@ -35,15 +45,10 @@ const std::vector<std::string>& knownExtensions() {
   return known;
 }
 
-// Major version, or -1.
-int majorVersion(const std::string& text) {
-  int major = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), major);
-  const bool good = error == std::errc() && (end == text.data() + text.size() || *end == '.');
-  return good ? major : -1;
+bool isKnownExtension(const std::string& name) {
+  const std::vector<std::string>& known = knownExtensions();
+  return std::find(known.begin(), known.end(), name) != known.end();
 }
-
-}  // namespace
 
 void checkAsset(const Import& import) {
   const Json root = import.document.root();
@@ -53,21 +58,17 @@ void checkAsset(const Import& import) {
   const std::string least = asset["minVersion"].text(version);
   if (majorVersion(least) != 2 || (majorVersion(version) != 2 && !asset["minVersion"].exists()))
     asset["version"].fail(fmt::format("'{}' is not read; only glTF 2.x is", version));
-  const std::vector<std::string>& known = knownExtensions();
-  const auto isKnown = [&](const std::string& name) {
-    return std::find(known.begin(), known.end(), name) != known.end();
-  };
   const Json requiredItems = root["extensionsRequired"], usedItems = root["extensionsUsed"];
   for (size_t i = 0; i < requiredItems.size(); ++i) {
     const std::string name = requiredItems.at(i).text();
-    if (!isKnown(name))
+    if (!isKnownExtension(name))
       requiredItems.at(i).fail(
           fmt::format("the file cannot be read without extension '{}', which is not supported{}",
-                      name, suggestion(name, known)));
+                      name, suggestion(name, knownExtensions())));
   }
   for (size_t i = 0; i < usedItems.size(); ++i) {
     const std::string name = usedItems.at(i).text();
-    if (!isKnown(name))
+    if (!isKnownExtension(name))
       import.warn(usedItems.at(i), fmt::format("extension '{}' is not supported; what it adds is "
                                                "left out",
                                                name));

@@ -23,5 +23,10 @@ struct Import {
 // Checks asset.version, extensionsRequired (unknown: InputError) and extensionsUsed (unknown: a
 // warning).
 void checkAsset(const Import& import);
+const std::vector<std::string>& knownExtensions();
+bool isKnownExtension(const std::string& name);
+
+// A warning for each key that glTF does not know where it stands.
+void warnOfUnknownKeys(const Import& import);
 
 }  // namespace lobelia::io::gltf

@@ -9,6 +9,9 @@ namespace lobelia::io::gltf {
 
 const char* Json::typeName() const { return exists() ? value_->type_name() : "missing"; }
 
+bool Json::isObject() const { return exists() && value_->is_object(); }
+bool Json::isArray() const { return exists() && value_->is_array(); }
+
 Json Json::operator[](std::string_view member) const {
   std::string path = path_;
   if (!path.empty()) path += '.';

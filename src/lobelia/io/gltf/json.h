@@ -21,6 +21,8 @@ class Json {
       : value_(value), path_(std::move(path)), file_(&file) {}
 
   bool exists() const { return value_ != nullptr; }
+  bool isObject() const;
+  bool isArray() const;
   const std::string& path() const { return path_; }
   Location where() const { return {*file_ + (path_.empty() ? "" : ": ") + path_, 0, 0}; }
   [[noreturn]] void fail(const std::string& message) const { throw InputError(where(), message); }

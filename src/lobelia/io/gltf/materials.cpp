@@ -19,14 +19,14 @@ void forEachTexture(const Json& object, const F& f) {
   }
 }
 
+}  // namespace
+
 std::vector<std::string> variantNames(const Document& document) {
   std::vector<std::string> names;
   const Json variants = document.root().extension("KHR_materials_variants")["variants"];
   for (size_t i = 0; i < variants.size(); ++i) names.push_back(variants.at(i)["name"].text());
   return names;
 }
-
-}  // namespace
 
 Materials::Materials(const Import& import) : import_(import), textures_(import) {
   const std::string& wanted = import.settings.variant;
@@ -36,10 +36,9 @@ Materials::Materials(const Import& import) : import_(import), textures_(import) 
   if (found == names.end()) {
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-    throw InputError(
-        {import.document.file(), 0, 0},
-        fmt::format("there is no material variant '{}'; there {}{}", wanted,
-                    names.empty() ? "are none" : "are " + list, suggestion(wanted, names)));
+    throw UsageError(fmt::format("--variant {}: {} has no such material variant; there are {}{}",
+                                 wanted, import.document.file(), names.empty() ? "none" : list,
+                                 suggestion(wanted, names)));
   }
   variant_ = static_cast<size_t>(found - names.begin());
 }

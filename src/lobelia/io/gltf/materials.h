@@ -38,6 +38,9 @@ struct BuiltMaterial {
   bool shinesBothWays = false;
 };
 
+// The sets of materials among which --variant chooses (KHR_materials_variants).
+std::vector<std::string> variantNames(const Document& document);
+
 class Materials {
  public:
   explicit Materials(const Import& import);

@@ -265,6 +265,8 @@ Scene readGltf(const std::string& file, const ReadSettings& settings, Context& c
   Scene scene;
   scene.file = file;
   gltf::checkAsset({document, scene, settings});
+  gltf::warnOfUnknownKeys({document, scene, settings});
+  scene.variants = gltf::variantNames(document);
   gltf::Reader(document, settings, scene).read(context);
   if (scene.name.empty()) scene.name = std::filesystem::path(file).stem().string();
   applyEnvironment(scene, settings);

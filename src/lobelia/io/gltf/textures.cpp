@@ -1,5 +1,5 @@
-// Deviations from glTF 2.0, 3.8: one wrap mode serves both axes; minification filters and mipmaps
-// are not used (the samples of a pixel filter a texture).
+// Deviation from glTF 2.0, 3.8: minification filters and mipmaps are not used (the samples of a
+// pixel filter a texture).
 //
 // KHR_texture_transform. "Rotate the UVs by this many radians counter-clockwise" is seen with v
 // pointing down, as in the image; so does Khronos' test TextureTransformTest have it, unlike the
@@ -27,9 +27,8 @@ Wrap wrapMode(const Json& where) {
 void applySampler(const Import& import, const Json& texture, Texture& out) {
   if (!texture["sampler"].exists()) return;
   const Json sampler = import.document.item("samplers", texture["sampler"]);
-  out.wrap = wrapMode(sampler["wrapS"]);
-  if (wrapMode(sampler["wrapT"]) != out.wrap)
-    import.warn(sampler, "wrapS and wrapT differ; wrapS is used for both");
+  out.wrapU = wrapMode(sampler["wrapS"]);
+  out.wrapV = wrapMode(sampler["wrapT"]);
   if (sampler["magFilter"].count(9729) == 9728) out.filter = Filter::nearest;
 }
 

@@ -52,6 +52,8 @@ Material Reader::measured(Object& object) {
   const TabulatedBrdf table = readMerl(document_.resolve(*file, object.where()), object.where());
   const CapturedFit fit = fitCaptured(table, lobes);
   findings_.inform(object.where(), *file + ": " + describeFit(table, fit));
+  if (const std::string doubts = doubtsAbout(table, fit); !doubts.empty())
+    findings_.warn(object.where(), *file + ": " + doubts);
   return materialOf(fit);
 }
 

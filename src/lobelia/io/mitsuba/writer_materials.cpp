@@ -197,7 +197,11 @@ pugi::xml_node Writer::textureNode(Node parent, const Texture& t, const std::str
       Node node = object(parent, "texture", "bitmap", id);
       property(node, "string", "filename", imageFiles_[t.image.index]);
       property(node, "string", "filter_type", t.filter == Filter::nearest ? "nearest" : "bilinear");
-      property(node, "string", "wrap_mode", kWraps[static_cast<size_t>(t.wrap)]);
+      property(node, "string", t.wrapU == t.wrapV ? "wrap_mode" : "wrap_mode_u",
+               kWraps[static_cast<size_t>(t.wrapU)]);
+      // As Mitsuba 0.6 has it (wrapModeU, wrapModeV); Mitsuba 3 has one mode for both.
+      if (t.wrapU != t.wrapV)
+        property(node, "string", "wrap_mode_v", kWraps[static_cast<size_t>(t.wrapV)]);
       if (t.alphaChannel) property(node, "string", "channel", "a");
       channel(node);
       if (!t.attribute.empty()) property(node, "string", "attribute", t.attribute);

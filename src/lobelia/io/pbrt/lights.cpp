@@ -226,7 +226,7 @@ Emitter Reader::projectionLight(Parameters& in) {
   scene_.images.push_back(std::move(picture));
   Texture t;
   t.type = TextureType::bitmap;
-  t.wrap = Wrap::clamp;
+  t.wrapU = t.wrapV = Wrap::clamp;
   t.image = {static_cast<uint32_t>(scene_.images.size() - 1)};
   e.radiance = add(std::move(t));
   e.fov = 2 * std::atan(tanX);

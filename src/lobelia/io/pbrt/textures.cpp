@@ -144,14 +144,14 @@ ColorParam Reader::imageMap(bool isColor, Parameters& in) {
 
   const std::string wrap = in.string("wrap", "repeat");
   if (wrap == "black") {
-    t.wrap = Wrap::zero;
+    t.wrapU = t.wrapV = Wrap::zero;
   } else if (wrap == "clamp") {
-    t.wrap = Wrap::clamp;
+    t.wrapU = t.wrapV = Wrap::clamp;
   } else if (wrap != "repeat") {
     if (wrap != "octahedralsphere")
       throw InputError(in.where(), unknownName("wrap mode", wrap, {"repeat", "black", "clamp"}));
     findings_.warn(in.where(), "the wrap mode 'octahedralsphere' is not supported; read as clamp");
-    t.wrap = Wrap::clamp;
+    t.wrapU = t.wrapV = Wrap::clamp;
   }
   const std::string filter = in.string("filter", "bilinear");
   const std::vector<std::string> filters{"point", "bilinear", "trilinear", "EWA", "ewa"};

@@ -1,0 +1,80 @@
+#include "lobelia/app/unused_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "lobelia/app/light_sets.h"
+#include "lobelia/app/render_frame.h"
+#include "lobelia/base/error.h"
+
+namespace lobelia::app {
+namespace {
+
+bool isGiven(const RenderOptions& options, const std::string& name) {
+  return std::find(options.given.begin(), options.given.end(), name) != options.given.end();
+}
+
+bool writes(const RenderOptions& options, const char* extension) {
+  return std::any_of(options.outputs.begin(), options.outputs.end(), [&](const std::string& file) {
+    return std::filesystem::path(file).extension() == extension;
+  });
+}
+
+// Options of virtual lights alone; --save-lights and --load-lights are errors without them.
+constexpr const char* kOfVirtualLights[] = {"--gather",     "--num-lights", "--passes",
+                                            "--env-lights", "--direct",     "--clamp"};
+
+}  // namespace
+
+std::vector<std::string> givenOptions(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && !option->get_lnames().empty())
+      names.push_back("--" + option->get_lnames().front());
+  return names;
+}
+
+std::vector<std::string> unusedOptions(const RenderOptions& options) {
+  std::vector<std::string> unused;
+  const auto report = [&](const std::string& name, bool without, const std::string& why) {
+    if (without && isGiven(options, name))
+      unused.push_back(fmt::format("{} has no effect: {}", name, why));
+  };
+  const bool virtualLights = usesVirtualLights(options);
+  for (const char* name : kOfVirtualLights)
+    report(name, !virtualLights, fmt::format("--lights {} has no virtual lights", options.lights));
+  if (virtualLights) {
+    report("--env-lights", options.direct != "lights",
+           "environments become lights with --direct lights only");
+    const bool loads = !options.loadLights.empty();
+    report("--num-lights", loads, "--load-lights brings the lights that it holds");
+    report("--env-lights", loads && options.direct == "lights",
+           "--load-lights brings the lights that it holds");
+    if (const int samples = virtualLightSamples(options); options.passes > samples) {
+      unused.push_back(
+          fmt::format("--passes {}: there are {} samples per pixel, and as many sets of lights "
+                      "suffice them; more sets need more --spp",
+                      options.passes, samples));
+    }
+  }
+  for (const char* name : {"--radius", "--vsl-indicator", "--vsl-sampling", "--vsl-samples"})
+    report(name, options.lights != "vsl", "only --lights vsl has spherical lights");
+  report("--pixels-seed", options.pixels == 0, "all pixels are computed without --pixels");
+  report("--checkpoint-interval", options.checkpoint.empty() && options.resume.empty(),
+         "neither --checkpoint nor --resume names a file");
+  if (options.replay.empty())
+    report("--exposure", !writes(options, ".png"), "no .png is written, and .exr stays linear");
+  return unused;
+}
+
+void requireUsedResults(const RenderOptions& options) {
+  if (options.aovs.empty() || !options.replay.empty() || writes(options, ".exr")) return;
+  throw UsageError(
+      fmt::format("--aov {}: layers are written to .exr only; add an output such as -o picture.exr",
+                  options.aovs));
+}
+
+}  // namespace lobelia::app
