@@ -83,19 +83,19 @@ std::vector<Centre> drawCentres(const std::vector<double>& cumulative, size_t co
   if (!(total > 0)) return {{0, 1}};  // all columns are alike
   std::vector<Centre> centres;
   std::vector<uint32_t> draws;
-  size_t distinct = 0, drawn = 0;
+  std::vector<bool> known(cumulative.size(), false);
+  size_t distinct = 0;
   // With replacement until enough are distinct; a few dominant lights must not hold it up for ever.
-  for (size_t wave = count; distinct < count && drawn < 64 * count; wave = count - distinct) {
-    for (size_t i = 0; i < wave; ++i, ++drawn) {
-      const double u = uniformNumber(seed, drawn) * total;
-      const auto at = std::upper_bound(cumulative.begin(), cumulative.end(), u);
-      draws.push_back(static_cast<uint32_t>(
-          std::min<size_t>(static_cast<size_t>(at - cumulative.begin()), cumulative.size() - 1)));
-    }
-    std::sort(draws.begin(), draws.end());
-    distinct = 1;
-    for (size_t i = 1; i < draws.size(); ++i) distinct += draws[i] != draws[i - 1];
+  while (distinct < count && draws.size() < 64 * count) {
+    const double u = uniformNumber(seed, draws.size()) * total;
+    const auto at = std::upper_bound(cumulative.begin(), cumulative.end(), u);
+    const size_t light =
+        std::min<size_t>(static_cast<size_t>(at - cumulative.begin()), cumulative.size() - 1);
+    draws.push_back(static_cast<uint32_t>(light));
+    if (!known[light]) ++distinct;
+    known[light] = true;
   }
+  std::sort(draws.begin(), draws.end());
   for (const uint32_t light : draws) {
     if (centres.empty() || centres.back().light != light) centres.push_back({light, 0});
     const double alpha = cumulative[light] - (light > 0 ? cumulative[light - 1] : 0);
