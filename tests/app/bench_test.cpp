@@ -115,10 +115,10 @@ TEST(Bench, Convergence) {
   EXPECT_EQ(runBench(arguments + " --threads 1")["convergence"], rows) << "depends on threads";
 }
 
-std::string tinyVsl(int lights, int columns) {
+std::string tinyVsl(const std::string& size, int lights, int columns) {
   return fmt::format(
-      " --detail 0.2 --size 24x18 --pixels 300 --num-lights {} --columns {} --rows 64 --spp 128 ",
-      lights, columns);
+      " --detail 0.2 --size {} --pixels 160 --num-lights {} --columns {} --rows 48 --spp 128 ",
+      size, lights, columns);
 }
 
 void expectPictures(const TemporaryFolder& folder, const std::vector<std::string>& names) {
@@ -140,8 +140,8 @@ double l2Of(const json& rows, const std::string& method) {
 // pixels are those that the clamps were chosen by.
 TEST(BenchVsl, MethodsSideBySide) {
   const TemporaryFolder folder;
-  const json result = runBench("vsl --scene study-ggx --figures 1,2,6,7" + tinyVsl(500, 500) +
-                               "-o " + folder.path());
+  const json result = runBench("vsl --scene study-ggx --figures 1,2,6,7" +
+                               tinyVsl("16x12", 300, 400) + "-o " + folder.path());
   const json& first = result["figure1"];
   expectNumbers(first, 3, {"seconds", "l2", "mean_ratio"});
   expectNumbers(result["figure2"], 3, {"seconds", "l2", "mean_ratio"});
@@ -165,7 +165,7 @@ TEST(BenchVsl, MethodsSideBySide) {
 
 TEST(BenchVsl, CurvesOfSeveralScenes) {
   const std::string arguments =
-      "vsl --figures 8 --scene study-ggx --scene study-diffuse" + tinyVsl(600, 150);
+      "vsl --figures 8 --scene study-ggx --scene study-diffuse" + tinyVsl("16x12", 600, 150);
   const json result = runBench(arguments);
   const json& columns = result["figure8_columns"];
   ASSERT_EQ(columns.size(), 4u) << columns;  // 500 and all, twice
@@ -183,7 +183,8 @@ TEST(BenchVsl, CurvesOfSeveralScenes) {
 
 TEST(BenchVsl, BoxesOfItsOwn) {
   const TemporaryFolder folder;
-  const json result = runBench("vsl --figures 4,5" + tinyVsl(1500, 150) + "-o " + folder.path());
+  const json result =
+      runBench("vsl --figures 4,5" + tinyVsl("32x24", 1500, 150) + "-o " + folder.path());
   expectNumbers(result["figure4"], 3, {"l2", "mean_ratio"});
   EXPECT_LT(l2Of(result["figure4"], "VSL, planar"), l2Of(result["figure4"], "VSL, cosine"));
   const json& sampling = result["figure5"];

@@ -35,6 +35,12 @@ std::vector<std::string> studyNames() {
   return names;
 }
 
+std::vector<std::string> figureNames() {
+  std::vector<std::string> names;
+  for (const int figure : kVslFigures) names.push_back(std::to_string(figure));
+  return names;
+}
+
 const Study& findStudy(const std::string& name) {
   for (const Study& study : kStudies)
     if (study.name == name) return study;
@@ -57,12 +63,12 @@ void requireOptions(const BenchOptions& options) {
   }
 }
 
-// Shows a study's own progress, not that of every small picture in it.
+// Shows a study's own progress, and not what every small picture in it tells (--verbose does).
 class StudyListener : public Listener {
  public:
   explicit StudyListener(Console& console) : console_(console) {}
   void message(Severity severity, std::string_view text) override {
-    console_.message(severity, text);
+    console_.message(severity == Severity::info ? Severity::debug : severity, text);
   }
   void progress(std::string_view stage, double fraction) override {
     if (stage.starts_with(kBenchStage))
@@ -93,8 +99,9 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
                "vsl: folder for pictures and for a page that shows them with the tables; without "
                "it only the pixels compared are rendered")
       ->type_name("FOLDER");
-  c.add_option("--figures", o.figures, "vsl: figures of the paper; default: 1,2,4,5,6,7,8")
-      ->type_name("LIST");
+  c.add_option("--figures", o.figures, "vsl: figures of the paper; default: all")
+      ->type_name("LIST")
+      ->check(offered(figureNames()));
   c.add_option("--json", o.json, "Write the tables as JSON")->type_name("FILE");
   c.add_option("-D,--define", o.scene.definitions, "name=value for a scene's $name")
       ->type_name("NAME=VALUE")

@@ -14,6 +14,7 @@ std::vector<BenchTable> benchRates(const BenchOptions& options, Context& context
 std::vector<BenchTable> benchPicture(const BenchOptions& options, Context& context);
 std::vector<BenchTable> benchClamp(const BenchOptions& options, Context& context);
 std::vector<BenchTable> benchConvergence(const BenchOptions& options, Context& context);
+inline constexpr int kVslFigures[] = {1, 2, 4, 5, 6, 7, 8};
 std::vector<BenchTable> benchVsl(const BenchOptions& options, Context& context);
 
 }  // namespace lobelia::app

@@ -12,17 +12,16 @@
 namespace lobelia::app {
 namespace {
 
-constexpr int kFigures[] = {1, 2, 4, 5, 6, 7, 8};
 const std::vector<std::string> kScenes = {"kitchen-stove", "hall", "tableau-ward"};
 
 std::set<int> parseFigures(const std::string& text) {
-  if (text.empty()) return {std::begin(kFigures), std::end(kFigures)};
+  if (text.empty()) return {std::begin(kVslFigures), std::end(kVslFigures)};
   std::set<int> figures;
   for (const char *p = text.data(), *end = p + text.size();; ++p) {
     int figure = 0;
     const auto [next, error] = std::from_chars(p, end, figure);
     const bool known =
-        std::find(std::begin(kFigures), std::end(kFigures), figure) != std::end(kFigures);
+        std::find(std::begin(kVslFigures), std::end(kVslFigures), figure) != std::end(kVslFigures);
     if (error != std::errc() || !known || (next != end && *next != ',')) {
       throw UsageError(fmt::format(
           "--figures '{}': figures are separated by commas; there are 1, 2, 4, 5, 6, 7 and 8",

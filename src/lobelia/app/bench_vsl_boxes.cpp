@@ -42,8 +42,8 @@ struct Sampling {
   const char *key, *label;
   SphereShading shading;
 };
-// The paper's ways draw up to 100 directions, by the cone; ours, by the lobes' overlap with it, which
-// for lobes as narrow as these is one.
+// The paper's ways draw up to 100 directions, by the cone; ours, by the lobes' overlap with it,
+// which for lobes as narrow as these is one.
 constexpr SphereShading sampled(SphereShading::Sampling sampling, int maxSamples) {
   return {SphereShading::Indicator::cosine, sampling, maxSamples};
 }

@@ -79,8 +79,8 @@ void overColumns(VslScene& scene, VslReport& report, Context& context) {
                           cosine.l2, cosine.meanRatio});
   }
   table.notes.push_back(
-      fmt::format("{}: {} lights; radius factor of the paper's {}; the last row "
-                  "is all lights.",
+      fmt::format("{}: {} lights, all of them in the last row; cosine: the paper's indicator and "
+                  "radius factor, {}.",
                   scene.name(), lights, scene.paperRadius()));
 }
 
