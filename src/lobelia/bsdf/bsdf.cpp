@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "lobelia/base/sampling.h"
 #include "lobelia/bsdf/albedo.h"
 #include "lobelia/bsdf/lobe_sampling.h"
 #include "lobelia/bsdf/scalar_lobe.h"
@@ -142,6 +143,33 @@ Rgb evaluateLocal(const Bsdf& bsdf, Vec3f wo, Vec3f wi, const Local& o, const Lo
   return sum;
 }
 
+// The only lobe of a plain diffuse surface, the commonest there is, or null. Such a surface needs
+// none of the bookkeeping of mixtures; values are the kernels' up to rounding.
+const Lobe* onlyLambert(const Bsdf& bsdf, LobeSet set) {
+  const Lobe& lobe = bsdf.lobes[0];
+  const bool is = bsdf.lobeCount == 1 && lobe.type == LobeType::lambert && inSet(lobe, set) &&
+                  !bsdf.frameOf(lobe).perturbed;
+  return is ? &lobe : nullptr;
+}
+// 1 or -1: the side of the surface that wo is on; 0 where the lobe does not act.
+float sideOf(const Lobe& lobe, float cosThetaO) {
+  return !isActive(lobe, cosThetaO) ? 0.f : cosThetaO > 0 ? 1.f : -1.f;
+}
+
+std::optional<BsdfSample> sampleLambert(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, Vec2f u) {
+  const ShadingFrame& frame = bsdf.frameOf(lobe);
+  const float side = sideOf(lobe, dot(wo, frame.n));
+  Vec3f wi = sampleHemisphereCosine(u);
+  if (side == 0 || !(wi.z > 0) || !(maxComponent(lobe.weight) > 0)) return std::nullopt;
+  BsdfSample result;
+  result.pdf = wi.z * kInvPi;
+  wi.z *= side;
+  result.wi = frame.toWorld(wi);
+  result.sharp = lobe.sharp;
+  result.weight = lobe.weight;
+  return result;
+}
+
 }  // namespace
 
 Rgb evaluate(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set, Transport transport) {
@@ -158,8 +186,27 @@ float pdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set) {
   return mixturePdf(bsdf, o, i, agreeing(bsdf, wi, i), set) / total;
 }
 
+BsdfValue evaluateWithPdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set, LobeSet sampled) {
+  if (const Lobe* const lobe = onlyLambert(bsdf, set); lobe && set == sampled) {
+    const Vec3f n = bsdf.frameOf(*lobe).n;
+    const float cosine = std::max(sideOf(*lobe, dot(wo, n)) * dot(wi, n), 0.f) * kInvPi;
+    return {lobe->weight * cosine, cosine};
+  }
+  const Local o(bsdf, wo), i(bsdf, wi);
+  const FrameBits frames = agreeing(bsdf, wi, i);
+  if (frames == 0) return {};
+  BsdfValue result{evaluateLocal(bsdf, wo, wi, o, i, frames, set, Transport::radiance)};
+  if (result.value == Rgb{}) return result;
+  const float total = totalSelection(bsdf, o, sampled);
+  if (total > 0) result.pdf = mixturePdf(bsdf, o, i, frames, sampled) / total;
+  return result;
+}
+
 std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f u, LobeSet set,
                                  Transport transport) {
+  if (transport == Transport::radiance) {
+    if (const Lobe* const lobe = onlyLambert(bsdf, set)) return sampleLambert(bsdf, *lobe, wo, u);
+  }
   const Local local(bsdf, wo);
   const float total = totalSelection(bsdf, local, set);
   if (!(total > 0)) return std::nullopt;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "lobelia/base/prefetch.h"
 #include "lobelia/base/random.h"
 #include "lobelia/path/emitter_tree.h"
 #include "lobelia/path/finite_lights.h"
@@ -80,6 +81,11 @@ struct EmitterSampler::Impl {
     return treeProbability > 0 ? even + treeProbability * tree.probability(p, n, light) : even;
   }
 
+  // What remains of a number that chose the uniform choice.
+  float uniformNumber(float choice) const {
+    return std::clamp((choice - treeProbability) / uniformProbability, 0.f, 0x1.fffffep-1f);
+  }
+
   std::optional<EmitterDirection> sampleFinite(uint32_t light, float chosen, Vec3f p,
                                                Vec2f u) const {
     const auto s = finite.sample(light, p, u);
@@ -126,10 +132,35 @@ std::optional<EmitterDirection> EmitterSampler::sampleDirection(Vec3f p, Vec3f n
     return impl.sampleFinite(chosen->light, probability, p, {u.y, u.z});
   }
   if (!(impl.uniformProbability > 0)) return std::nullopt;  // rounding at the very end of [0,1)
-  const float rest = (choice - impl.treeProbability) / impl.uniformProbability;
-  const uint32_t light =
-      static_cast<uint32_t>(impl.uniform.sample(std::clamp(rest, 0.f, 0x1.fffffep-1f)));
+  const uint32_t light = static_cast<uint32_t>(impl.uniform.sample(impl.uniformNumber(choice)));
   return impl.sampleFinite(light, impl.probability(light, p, n), p, {u.y, u.z});
+}
+
+void EmitterSampler::prefetch(std::span<const Vec3f> u) const {
+  const Impl& impl = *impl_;
+  const bool manyLights = !impl.tree.empty();
+  if (!manyLights && !impl.infinite.hasImages()) return;
+  std::vector<std::vector<Vec2f>> infinite(impl.infinite.size());
+  std::vector<float> uniform;
+  for (const Vec3f& v : u) {
+    float choice = v.x;
+    size_t i = 0;
+    while (i < infinite.size() && !(choice < impl.infinite[i].probability))
+      choice -= impl.infinite[i++].probability;
+    if (i < infinite.size()) {
+      infinite[i].push_back({v.y, v.z});
+    } else if (manyLights && !(choice < impl.treeProbability)) {
+      uniform.push_back(impl.uniformNumber(choice));
+    }
+  }
+  for (size_t i = 0; i < infinite.size(); ++i)
+    impl.infinite.prefetch(impl.infinite[i], infinite[i]);
+  for (const float v : uniform) impl.uniform.prefetch(v);
+  for (const float v : uniform) {
+    const size_t light = impl.uniform.sample(v);
+    impl.finite.prefetch(static_cast<uint32_t>(light));
+    prefetchRead(&impl.uniformShare[light]);
+  }
 }
 
 float EmitterSampler::pdfHit(Vec3f p, Vec3f n, const SurfacePoint& hit, Vec3f wi) const {
@@ -149,6 +180,9 @@ Rgb EmitterSampler::emitted(const SurfacePoint& hit, Vec3f wo) const {
 }
 
 Rgb EmitterSampler::escaped(Vec3f d) const { return impl_->infinite.escaped(d); }
+Rgb EmitterSampler::escaped(Vec3f d, Vec3f n, float* pdf) const {
+  return impl_->infinite.escaped(d, n, pdf);
+}
 Rgb EmitterSampler::environment(Vec3f d) const { return impl_->infinite.environment(d); }
 
 Rgb EmitterSampler::environment(Vec3f d, size_t group) const {
