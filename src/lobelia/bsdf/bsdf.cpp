@@ -143,6 +143,31 @@ Rgb evaluateLocal(const Bsdf& bsdf, Vec3f wo, Vec3f wi, const Local& o, const Lo
   return sum;
 }
 
+// Value (radiance) and density, not yet over the sum of all selections, of the lobes that take
+// part.
+BsdfValue evaluateMixture(const Bsdf& bsdf, Vec3f wi, const Local& o, const Local& i,
+                          FrameBits frames, LobeSet set) {
+  BsdfValue sum;
+  for (int l = 0; l < bsdf.lobeCount; ++l) {
+    const Lobe& lobe = bsdf.lobes[l];
+    const Vec3f localO = o.of(lobe), localI = i.of(lobe);
+    if (!inSet(lobe, set) || !isActive(lobe, localO.z) || isDelta(lobe)) continue;
+    if ((frames >> lobe.frame & 1) == 0) continue;
+    Rgb value;
+    if (isInterfacePair(bsdf, l)) {
+      const Lobe& other = bsdf.lobes[++l];
+      value = evaluateLobe(lobe, localO, localI) + evaluateLobe(other, localO, localI);
+      sum.pdf += (lobe.selection + other.selection) * interfacePdf(lobe, other, localO, localI);
+    } else {
+      const LobeValue own = evaluateWithPdf(lobe, localO, localI);
+      value = own.value;
+      sum.pdf += lobe.selection * own.pdf;
+    }
+    sum.value += value * bumpShadow(bsdf.baseNormal, bsdf.frameOf(lobe).bumpAlpha2, wi);
+  }
+  return sum;
+}
+
 // The only lobe of a plain diffuse surface, the commonest there is, or null. Such a surface needs
 // none of the bookkeeping of mixtures; values are the kernels' up to rounding.
 const Lobe* onlyLambert(const Bsdf& bsdf, LobeSet set) {
@@ -161,12 +186,12 @@ std::optional<BsdfSample> sampleLambert(const Bsdf& bsdf, const Lobe& lobe, Vec3
   const float side = sideOf(lobe, dot(wo, frame.n));
   Vec3f wi = sampleHemisphereCosine(u);
   if (side == 0 || !(wi.z > 0) || !(maxComponent(lobe.weight) > 0)) return std::nullopt;
-  BsdfSample result;
-  result.pdf = wi.z * kInvPi;
+  std::optional<BsdfSample> result(std::in_place);
+  result->pdf = wi.z * kInvPi;
   wi.z *= side;
-  result.wi = frame.toWorld(wi);
-  result.sharp = lobe.sharp;
-  result.weight = lobe.weight;
+  result->wi = frame.toWorld(wi);
+  result->sharp = lobe.sharp;
+  result->weight = lobe.weight;
   return result;
 }
 
@@ -195,10 +220,13 @@ BsdfValue evaluateWithPdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set, Lob
   const Local o(bsdf, wo), i(bsdf, wi);
   const FrameBits frames = agreeing(bsdf, wi, i);
   if (frames == 0) return {};
-  BsdfValue result{evaluateLocal(bsdf, wo, wi, o, i, frames, set, Transport::radiance)};
-  if (result.value == Rgb{}) return result;
   const float total = totalSelection(bsdf, o, sampled);
-  if (total > 0) result.pdf = mixturePdf(bsdf, o, i, frames, sampled) / total;
+  if (set != sampled) {
+    const Rgb value = evaluateLocal(bsdf, wo, wi, o, i, frames, set, Transport::radiance);
+    return {value, total > 0 ? mixturePdf(bsdf, o, i, frames, sampled) / total : 0.f};
+  }
+  BsdfValue result = evaluateMixture(bsdf, wi, o, i, frames, set);
+  result.pdf = total > 0 ? result.pdf / total : 0.f;
   return result;
 }
 
@@ -262,13 +290,20 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f 
   Local localI(bsdf, result.wi);
   localI.frames[lobe.frame] = *i;
   const FrameBits frames = agreeing(bsdf, result.wi, localI);
-  result.pdf = mixturePdf(bsdf, local, localI, frames, set) / total;
+  const bool radiance = transport == Transport::radiance;
+  BsdfValue value;
+  if (radiance)
+    value = evaluateMixture(bsdf, result.wi, local, localI, frames, set);
+  else
+    value.pdf = mixturePdf(bsdf, local, localI, frames, set);
+  result.pdf = value.pdf / total;
   if (!(result.pdf > 0) || !std::isfinite(result.pdf)) return std::nullopt;
   result.transmission = i->z * o.z < 0;
   if (result.transmission && (pair || lobe.type == LobeType::microfacetTransmission))
     result.eta = relativeEta(lobe, o.z < 0);
-  result.weight =
-      evaluateLocal(bsdf, wo, result.wi, local, localI, frames, set, transport) / result.pdf;
+  if (!radiance)
+    value.value = evaluateLocal(bsdf, wo, result.wi, local, localI, frames, set, transport);
+  result.weight = value.value / result.pdf;
   if (!(maxComponent(result.weight) > 0)) return std::nullopt;
   return result;
 }

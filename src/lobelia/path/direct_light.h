@@ -54,23 +54,35 @@ inline Vec3f directLightNumbers(Vec3f u, int i, int count) {
 // Light that emitters send to q, times f |cos| of the lobes in `lobes`: `count` emitter samples
 // whose mean it is, stratified over the choice of the emitter. `sampled`: the lobes among which the
 // one accompanying BSDF sample is drawn (MIS); pass withBsdf = false when there is none. u: three
-// uniform numbers. ask(i, ray, value, emitter): the i-th sample, of this emitter, is worth `value`,
-// a share of the mean, where nothing blocks the ray; samples that are worth nothing are left out.
+// uniform numbers. ask(i, light, value): the i-th sample is worth `value`, a share of the mean,
+// where nothing blocks shadowRay(q, light); samples that are worth nothing are left out.
 template <class Ask>
 void sampleDirectLight(const EmitterSampler& emitters, const LightQuery& q, const Bsdf& bsdf,
                        Vec3f wo, LobeSet lobes, LobeSet sampled, bool withBsdf, Vec3f u, int count,
                        const Ask& ask) {
   const float n = static_cast<float>(count), step = 1 / n;
-  for (int i = 0; i < count; ++i) {
-    const auto light = emitters.sampleDirection(q.p, q.n, directLightNumbers(u, i, count));
-    if (!light) continue;
-    const bool weighed = withBsdf && !light->delta;
-    const BsdfValue f = weighed ? evaluateWithPdf(bsdf, wo, light->wi, lobes, sampled)
-                                : BsdfValue{evaluate(bsdf, wo, light->wi, lobes), 0};
-    Rgb value = f.value * light->weight;
-    if (value == Rgb{}) continue;
-    if (weighed) value *= powerHeuristic(n * light->pdf, f.pdf);
-    ask(i, shadowRay(q, *light), value * step, light->emitter);
+  // A few at a time are drawn before any is used: what is read right after it was written has not
+  // settled yet.
+  constexpr int kMost = 4;
+  for (int first = 0; first < count; first += kMost) {
+    std::optional<EmitterDirection> lights[kMost];
+    const int end = std::min(first + kMost, count);
+    for (int i = first; i < end; ++i) {
+      auto& light = lights[i - first];
+      const Vec3f ui = directLightNumbers(u, i, count);
+      if (!emitters.sampleDirection(q.p, q.n, ui.x, {ui.y, ui.z}, light.emplace())) light.reset();
+    }
+    for (int i = first; i < end; ++i) {
+      if (!lights[i - first]) continue;
+      const EmitterDirection& light = *lights[i - first];
+      const bool weighed = withBsdf && !light.delta;
+      const BsdfValue f = weighed ? evaluateWithPdf(bsdf, wo, light.wi, lobes, sampled)
+                                  : BsdfValue{evaluate(bsdf, wo, light.wi, lobes), 0};
+      Rgb value = f.value * light.weight;
+      if (value == Rgb{}) continue;
+      if (weighed) value *= powerHeuristic(n * light.pdf, f.pdf);
+      ask(i, light, value * step);
+    }
   }
 }
 
@@ -82,11 +94,12 @@ Rgb sampleDirectLight(const Rays& tracer, const EmitterSampler& emitters, const 
                       Vec3f u, uint64_t* shadowRays, const Add& add) {
   Rgb sum{};
   sampleDirectLight(emitters, q, bsdf, wo, lobes, sampled, withBsdf, u, 1,
-                    [&](int, const Ray& ray, Rgb value, uint32_t emitter) {
+                    [&](int, const EmitterDirection& light, Rgb value) {
                       ++*shadowRays;
+                      const Ray ray = shadowRay(q, light);
                       if (tracer.occluded(ray)) return;
                       sum += value;
-                      add(value, emitter, ray.d);
+                      add(value, light.emitter, ray.d);
                     });
   return sum;
 }

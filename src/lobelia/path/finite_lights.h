@@ -51,10 +51,9 @@ class FiniteLights {
   uint32_t emitter(uint32_t light) const;
 
   // Empty where the light sends nothing towards p.
-  std::optional<LightSample> sample(uint32_t light, Vec3f p, Vec2f u) const {
-    return light < firstSphere() ? sampleTriangle(triangles_[light], p, u)
-                                 : sampleOther(light, p, u);
-  }
+  bool isTriangle(uint32_t light) const { return light < firstSphere(); }
+  std::optional<LightSample> sampleTriangle(uint32_t light, Vec3f p, Vec2f u) const;
+  std::optional<LightSample> sampleOther(uint32_t light, Vec3f p, Vec2f u) const;
   void prefetch(uint32_t light) const {
     if (light < firstSphere()) prefetchRead(&triangles_[light]);
   }
@@ -78,8 +77,6 @@ class FiniteLights {
     Rgb radiance{};      // if so
   };
   void addInstance(uint32_t instance);
-  std::optional<LightSample> sampleTriangle(const TriangleLight& light, Vec3f p, Vec2f u) const;
-  std::optional<LightSample> sampleOther(uint32_t light, Vec3f p, Vec2f u) const;
   Rgb radiance(const TriangleLight& light, float b1, float b2) const {
     const InstanceLights& instance = instances_[light.instance];
     return instance.plain ? instance.radiance : variedRadiance(light, b1, b2);
@@ -96,8 +93,9 @@ class FiniteLights {
   size_t emitterCount_ = 0;
 };
 
-inline std::optional<LightSample> FiniteLights::sampleTriangle(const TriangleLight& light, Vec3f p,
+inline std::optional<LightSample> FiniteLights::sampleTriangle(uint32_t index, Vec3f p,
                                                                Vec2f u) const {
+  const TriangleLight& light = triangles_[index];
   const Vec2f b = sampleTriangleUniform(u);
   const Vec3f at = light.p0 + light.e1 * b.x + light.e2 * b.y;
   const Vec3f to = at - p;

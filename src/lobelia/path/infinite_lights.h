@@ -49,7 +49,7 @@ class InfiniteLights {
     if (light.kind == InfiniteLight::Kind::environment)
       environments_[light.environment].prefetch(u);
   }
-  bool hasImages() const { return !environments_.empty(); }
+  bool hasEnvironments() const { return !environments_.empty(); }
   // A ray into the scene, its flux over the density of the ray (selection not included).
   std::optional<EmittedRay> sampleRay(const InfiniteLight& light, Vec2f uPosition,
                                       Vec2f uDirection) const;

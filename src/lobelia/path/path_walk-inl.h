@@ -26,19 +26,19 @@ void PathWalk<Rays>::prefetch(const Hit& hit) const {
 // The numbers that choose emitters come first, so that what they choose is on its way from memory
 // while the hits are dealt with.
 template <class Rays>
-void PathWalk<Rays>::prefetchLights(std::span<PathState* const> paths) const {
+void PathWalk<Rays>::chooseLights(std::span<PathState* const> paths) const {
+  const bool scattered = emitters_.scattered();
   std::vector<Vec3f> numbers;
-  numbers.reserve(paths.size() * static_cast<size_t>(directSamples(*paths[0])));
   for (PathState* path : paths) {
     const float select = path->random.next1D();
     const Vec2f place = path->random.next2D();
     path->lightNumbers = {select, place.x, place.y};
-    if (!path->hit) continue;
+    if (!scattered || !path->hit) continue;
     const int count = directSamples(*path);
     for (int i = 0; i < count; ++i)
       numbers.push_back(directLightNumbers(path->lightNumbers, i, count));
   }
-  emitters_.prefetch(numbers);
+  if (scattered) emitters_.prefetch(numbers);
 }
 
 template <class Rays>
@@ -81,7 +81,7 @@ void PathWalk<Rays>::traceSome(std::span<PathState> paths, Shadows& shadows,
     for (size_t i = 0; i < count; ++i) {
       if (active[i]->hit) prefetch(*active[i]->hit);
     }
-    prefetchLights(std::span(active, count));
+    chooseLights(std::span(active, count));
     size_t left = 0;
     shadows.clear();
     for (size_t i = 0; i < count; ++i) {
@@ -266,10 +266,15 @@ template <class Rays>
 void PathWalk<Rays>::light(PathState& path, const Bsdf& bsdf, Vec3f wo, Shadows& shadows) const {
   sampleDirectLight(emitters_, path.from, bsdf, wo, LobeSet::all, LobeSet::all, true,
                     path.lightNumbers, path.samplesFrom,
-                    [&](int sample, const Ray& ray, Rgb value, uint32_t emitter) {
+                    [&](int sample, const EmitterDirection& light, Rgb value) {
                       ++path.shadowRays;
-                      shadows.push_back({ray, &path, sample, path.chain != Rgb{},
-                                         path.chain * value, path.indirect * value, emitter});
+                      PathShadow& shadow = shadows.emplace_back();  // filled where it stays
+                      shadow.ray = shadowRay(path.from, light);
+                      shadow.path = &path;
+                      shadow.sample = sample;
+                      shadow.seen = path.chain != Rgb{};
+                      shadow.direct = path.chain * value, shadow.indirect = path.indirect * value;
+                      shadow.emitter = light.emitter;
                     });
 }
 

@@ -111,7 +111,7 @@ class PathWalk {
   void traceSome(std::span<PathState> paths, Shadows& shadows, PathCounts& counts) const;
   void intersectFirst(std::span<PathState> paths) const;
   void prefetch(const Hit& hit) const;
-  void prefetchLights(std::span<PathState* const> paths) const;
+  void chooseLights(std::span<PathState* const> paths) const;
   int directSamples(const PathState& path) const {
     return path.chain != Rgb{} ? std::max(settings_.directSamples, 1) : 1;
   }
