@@ -119,6 +119,26 @@ TEST(Distribution2D, DensityIntegratesToOneAndAgreesWithSampling) {
   EXPECT_FLOAT_EQ(pdf, distribution.pdf(p));
 }
 
+// The search of many side by side, in a tree of three levels.
+TEST(Distribution2D, PrefetchFindsTheCellsOfSamples) {
+  constexpr int kWidth = 400, kHeight = 5;
+  std::vector<float> weights(kWidth * kHeight);
+  Rng rng(19);
+  for (float& w : weights) w = rng.next1D() < 0.3f ? 0.f : rng.next1D();
+  const Distribution2D distribution(weights, kWidth, kHeight);
+  std::vector<Vec2f> numbers(500);
+  for (Vec2f& u : numbers) u = rng.next2D();
+  std::vector<size_t> cells(numbers.size());
+  distribution.prefetch(numbers, cells);
+  size_t same = 0;
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    const Vec2f p = distribution.sample(numbers[i], nullptr);
+    const auto x = static_cast<size_t>(p.x * kWidth), y = static_cast<size_t>(p.y * kHeight);
+    same += cells[i] == y * kWidth + x ? 1 : 0;
+  }
+  EXPECT_GE(same, numbers.size() - 2);  // rounding may move a place to a neighbour
+}
+
 TEST(Distribution2D, KeepsStrata) {
   std::vector<float> weights(32 * 16);
   Rng rng(10);

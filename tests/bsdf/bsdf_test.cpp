@@ -56,6 +56,33 @@ TEST(Bsdf, SetsAddUpToAll) {
   EXPECT_GT(nonzero, 100);
 }
 
+TEST(Bsdf, ValueAndDensityAtOnceAreThoseOfTheirOwn) {
+  Rng rng(17);
+  std::vector<Example> all = examples();
+  Lobe twoSided = simple(LobeType::lambert);
+  twoSided.twoSided = true;
+  all.push_back({"two-sided lambert", single(twoSided)});
+  Bsdf mixed = single(twoSided);
+  mixed.add(microfacets(Distribution::ggx, 0.3f, 0.1f, Fresnel::conductor));
+  all.push_back({"lambert and metal", mixed});
+  int nonzero = 0;
+  for (const Example& e : all) {
+    for (int n = 0; n < 300; ++n) {
+      const Vec3f wo = sampleSphereUniform(rng.next2D());
+      const float u = rng.next1D();
+      const auto s = sample(e.bsdf, wo, u, rng.next2D());
+      const Vec3f wi = s && !s->delta && n % 2 == 0 ? s->wi : sampleSphereUniform(rng.next2D());
+      const BsdfValue both = evaluateWithPdf(e.bsdf, wo, wi, LobeSet::all, LobeSet::all);
+      const Rgb value = evaluate(e.bsdf, wo, wi);
+      const float density = pdf(e.bsdf, wo, wi);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(both.value[c], value[c], 2e-3f * value[c]) << e.name;
+      EXPECT_NEAR(both.pdf, density, 2e-3f * density) << e.name;
+      nonzero += value.x > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(nonzero, 1000);
+}
+
 TEST(Bsdf, SampleKeepsToItsSet) {
   Bsdf bsdf;
   bsdf.add(simple(LobeType::lambert));

@@ -83,25 +83,6 @@ TEST(SurfacePoint, DegenerateUvsFallBack) {
   EXPECT_TRUE(isFinite(at.frame.s));
 }
 
-// dn/du against finite differences of the frame's normal.
-TEST(SurfacePoint, NormalDerivatives) {
-  Scene s;
-  Mesh mesh = squareMesh();
-  mesh.normals = {normalize(Vec3f(-1, -1, 2)), normalize(Vec3f(1, -1, 2)),
-                  normalize(Vec3f(1, 1, 3)), normalize(Vec3f(-1, 1, 2))};
-  place(s, mesh, kPlaced);
-  const SurfacePoint at = surfacePoint(s, {1, 0.3f, 0.3f, 0, 0});
-  constexpr float h = 1e-3f;
-  // Triangle 0: u = b1 + b2, v = b2.
-  const auto normal = [&](float u, float v) {
-    return surfacePoint(s, {1, u - v, v, 0, 0}).frame.n;
-  };
-  const Vec3f du = (normal(0.6f + h, 0.3f) - normal(0.6f - h, 0.3f)) / (2 * h);
-  const Vec3f dv = (normal(0.6f, 0.3f + h) - normal(0.6f, 0.3f - h)) / (2 * h);
-  EXPECT_NEAR(length(at.dndu - du), 0, 2e-3f);
-  EXPECT_NEAR(length(at.dndv - dv), 0, 2e-3f);
-}
-
 TEST(SurfacePoint, TinyAndDegenerateTrianglesGiveFiniteNormals) {
   Scene s;
   Mesh mesh = squareMesh();

@@ -157,7 +157,7 @@ std::vector<TracedRays> recordPathRays(const Tracer& tracer, const EmitterSample
   std::vector<TracedRays> tiles(static_cast<size_t>(across * down));
   parallelFor(tiles.size(), 1, [&](size_t t) {
     const Recorder recorder{tracer, {}};
-    const PathWalk<Recorder> walk(recorder, emitters, settings);
+    const PathWalk<Recorder> walk(recorder, emitters, settings, false);
     PathCounts counts;
     std::vector<PathState> paths;
     const int x0 = static_cast<int>(t) % across * kTile, y0 = static_cast<int>(t) / across * kTile;

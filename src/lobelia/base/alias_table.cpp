@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "lobelia/base/random.h"
 #include "lobelia/base/sampling.h"
 
 namespace lobelia {
@@ -41,25 +40,6 @@ AliasTable::AliasTable(std::span<const float> weights) : weights_(weights.begin(
   uint32_t positive = 0;
   while (!(weights_[positive] > 0)) ++positive;
   for (uint32_t s : small) bins_[s] = {weights_[s] > 0 ? 1.f : 0.f, weights_[s] > 0 ? s : positive};
-}
-
-size_t AliasTable::sample(float u, float* remapped) const {
-  assert(!bins_.empty());
-  // u has 24 bits. A million bins leave four of them for the choice inside a bin, which would
-  // favour the light items; a hash of u gives the bits below, which leaves strata as they are.
-  const uint64_t hashed = mixBits(static_cast<uint64_t>(static_cast<double>(u) * 0x1p24) + 1);
-  const double below = static_cast<double>(hashed >> 40) * 0x1p-48;
-  const double scaled = (static_cast<double>(u) + below) * static_cast<double>(bins_.size());
-  const size_t i = std::min(static_cast<size_t>(scaled), bins_.size() - 1);
-  const double v = std::min(scaled - static_cast<double>(i), 1.0);
-  const Bin& bin = bins_[i];
-  const double q = static_cast<double>(bin.q);
-  const bool own = v < q;
-  if (remapped) {
-    const double fresh = own ? v / q : (v - q) / (1 - q);
-    *remapped = std::min(static_cast<float>(fresh), 0x1.fffffep-1f);
-  }
-  return own ? i : bin.alias;
 }
 
 }  // namespace lobelia

@@ -1,9 +1,11 @@
 // Piecewise-constant density on the unit square, by marginal and conditional inversion.
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "lobelia/base/prefetch.h"
 #include "lobelia/base/sampling.h"
 
 namespace lobelia {
@@ -118,6 +120,32 @@ Vec2f Distribution2D::sample(Vec2f u, float* pdf) const {
   const double cells = static_cast<double>(nx_) * static_cast<double>(ny_);
   *pdf = static_cast<float>(static_cast<double>(weights_[cell]) / total_ * cells);
   return p;
+}
+
+// The searches of all rows go down side by side, a level at a time.
+void Distribution2D::prefetch(std::span<const Vec2f> u, std::span<size_t> cells) const {
+  const size_t width = static_cast<size_t>(nx_), stride = treeSize(width + 1);
+  std::array<size_t, 16> levels{};  // offsets, the widest first
+  size_t depth = 0, offset = 0;
+  for (size_t count = width + 1;; count = (count + kChildren - 1) / kChildren) {
+    levels[depth++] = offset;
+    offset += paddedSize(count);
+    if (count <= kChildren) break;
+  }
+  std::vector<size_t> nodes(u.size(), 0);
+  for (size_t i = 0; i < u.size(); ++i) {
+    Vec2f inside;
+    cells[i] = static_cast<size_t>(invert(marginal_.data(), ny_, u[i].y, &inside.y));
+  }
+  while (depth-- > 0) {
+    const auto node = [&](size_t i) {
+      return conditional_.data() + cells[i] * stride + levels[depth] + nodes[i] * kChildren;
+    };
+    for (size_t i = 0; i < u.size(); ++i) touch(node(i));
+    for (size_t i = 0; i < u.size(); ++i)
+      nodes[i] = nodes[i] * kChildren + chooseChild(node(i), u[i].x);
+  }
+  for (size_t i = 0; i < u.size(); ++i) cells[i] = cells[i] * width + std::min(nodes[i], width - 1);
 }
 
 float Distribution2D::pdf(Vec2f p) const {

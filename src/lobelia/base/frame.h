@@ -27,9 +27,9 @@ inline Frame frameFromNormalTangent(Vec3f n, Vec3f tangent) {
   const Vec3f s = tangent - n * dot(n, tangent);
   const float len2 = lengthSquared(s);
   if (!(len2 > 1e-12f * lengthSquared(tangent)) || !std::isfinite(len2)) return frameFromNormal(n);
-  // Once more: what rounding left along n counts when the tangent was nearly parallel to it.
   Vec3f sn = s / std::sqrt(len2);
-  sn = normalize(sn - n * dot(n, sn));
+  // Once more: what rounding left along n counts when the tangent was nearly parallel to it.
+  if (len2 < 0.25f * lengthSquared(tangent)) sn = normalize(sn - n * dot(n, sn));
   return {sn, cross(n, sn), n};
 }
 

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "lobelia/base/sampling.h"
 #include "lobelia/bsdf/albedo.h"
 #include "lobelia/bsdf/lobe_sampling.h"
 #include "lobelia/bsdf/scalar_lobe.h"
@@ -142,6 +143,58 @@ Rgb evaluateLocal(const Bsdf& bsdf, Vec3f wo, Vec3f wi, const Local& o, const Lo
   return sum;
 }
 
+// Value (radiance) and density, not yet over the sum of all selections, of the lobes that take
+// part.
+BsdfValue evaluateMixture(const Bsdf& bsdf, Vec3f wi, const Local& o, const Local& i,
+                          FrameBits frames, LobeSet set) {
+  BsdfValue sum;
+  for (int l = 0; l < bsdf.lobeCount; ++l) {
+    const Lobe& lobe = bsdf.lobes[l];
+    const Vec3f localO = o.of(lobe), localI = i.of(lobe);
+    if (!inSet(lobe, set) || !isActive(lobe, localO.z) || isDelta(lobe)) continue;
+    if ((frames >> lobe.frame & 1) == 0) continue;
+    Rgb value;
+    if (isInterfacePair(bsdf, l)) {
+      const Lobe& other = bsdf.lobes[++l];
+      value = evaluateLobe(lobe, localO, localI) + evaluateLobe(other, localO, localI);
+      sum.pdf += (lobe.selection + other.selection) * interfacePdf(lobe, other, localO, localI);
+    } else {
+      const LobeValue own = evaluateWithPdf(lobe, localO, localI);
+      value = own.value;
+      sum.pdf += lobe.selection * own.pdf;
+    }
+    sum.value += value * bumpShadow(bsdf.baseNormal, bsdf.frameOf(lobe).bumpAlpha2, wi);
+  }
+  return sum;
+}
+
+// The only lobe of a plain diffuse surface, the commonest there is, or null. Such a surface needs
+// none of the bookkeeping of mixtures; values are the kernels' up to rounding.
+const Lobe* onlyLambert(const Bsdf& bsdf, LobeSet set) {
+  const Lobe& lobe = bsdf.lobes[0];
+  const bool is = bsdf.lobeCount == 1 && lobe.type == LobeType::lambert && inSet(lobe, set) &&
+                  !bsdf.frameOf(lobe).perturbed;
+  return is ? &lobe : nullptr;
+}
+// 1 or -1: the side of the surface that wo is on; 0 where the lobe does not act.
+float sideOf(const Lobe& lobe, float cosThetaO) {
+  return !isActive(lobe, cosThetaO) ? 0.f : cosThetaO > 0 ? 1.f : -1.f;
+}
+
+std::optional<BsdfSample> sampleLambert(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, Vec2f u) {
+  const ShadingFrame& frame = bsdf.frameOf(lobe);
+  const float side = sideOf(lobe, dot(wo, frame.n));
+  Vec3f wi = sampleHemisphereCosine(u);
+  if (side == 0 || !(wi.z > 0) || !(maxComponent(lobe.weight) > 0)) return std::nullopt;
+  std::optional<BsdfSample> result(std::in_place);
+  result->pdf = wi.z * kInvPi;
+  wi.z *= side;
+  result->wi = frame.toWorld(wi);
+  result->sharp = lobe.sharp;
+  result->weight = lobe.weight;
+  return result;
+}
+
 }  // namespace
 
 Rgb evaluate(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set, Transport transport) {
@@ -158,8 +211,30 @@ float pdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set) {
   return mixturePdf(bsdf, o, i, agreeing(bsdf, wi, i), set) / total;
 }
 
+BsdfValue evaluateWithPdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set, LobeSet sampled) {
+  if (const Lobe* const lobe = onlyLambert(bsdf, set); lobe && set == sampled) {
+    const Vec3f n = bsdf.frameOf(*lobe).n;
+    const float cosine = std::max(sideOf(*lobe, dot(wo, n)) * dot(wi, n), 0.f) * kInvPi;
+    return {lobe->weight * cosine, cosine};
+  }
+  const Local o(bsdf, wo), i(bsdf, wi);
+  const FrameBits frames = agreeing(bsdf, wi, i);
+  if (frames == 0) return {};
+  const float total = totalSelection(bsdf, o, sampled);
+  if (set != sampled) {
+    const Rgb value = evaluateLocal(bsdf, wo, wi, o, i, frames, set, Transport::radiance);
+    return {value, total > 0 ? mixturePdf(bsdf, o, i, frames, sampled) / total : 0.f};
+  }
+  BsdfValue result = evaluateMixture(bsdf, wi, o, i, frames, set);
+  result.pdf = total > 0 ? result.pdf / total : 0.f;
+  return result;
+}
+
 std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f u, LobeSet set,
                                  Transport transport) {
+  if (transport == Transport::radiance) {
+    if (const Lobe* const lobe = onlyLambert(bsdf, set)) return sampleLambert(bsdf, *lobe, wo, u);
+  }
   const Local local(bsdf, wo);
   const float total = totalSelection(bsdf, local, set);
   if (!(total > 0)) return std::nullopt;
@@ -215,13 +290,20 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f 
   Local localI(bsdf, result.wi);
   localI.frames[lobe.frame] = *i;
   const FrameBits frames = agreeing(bsdf, result.wi, localI);
-  result.pdf = mixturePdf(bsdf, local, localI, frames, set) / total;
+  const bool radiance = transport == Transport::radiance;
+  BsdfValue value;
+  if (radiance)
+    value = evaluateMixture(bsdf, result.wi, local, localI, frames, set);
+  else
+    value.pdf = mixturePdf(bsdf, local, localI, frames, set);
+  result.pdf = value.pdf / total;
   if (!(result.pdf > 0) || !std::isfinite(result.pdf)) return std::nullopt;
   result.transmission = i->z * o.z < 0;
   if (result.transmission && (pair || lobe.type == LobeType::microfacetTransmission))
     result.eta = relativeEta(lobe, o.z < 0);
-  result.weight =
-      evaluateLocal(bsdf, wo, result.wi, local, localI, frames, set, transport) / result.pdf;
+  if (!radiance)
+    value.value = evaluateLocal(bsdf, wo, result.wi, local, localI, frames, set, transport);
+  result.weight = value.value / result.pdf;
   if (!(maxComponent(result.weight) > 0)) return std::nullopt;
   return result;
 }

@@ -29,6 +29,12 @@ Rgb evaluate(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set = LobeSet::all,
              Transport transport = Transport::radiance);
 // Density of sample() with the same set; the delta lobes' share of the choice is left out.
 float pdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set = LobeSet::all);
+// evaluate() of one set for radiance and pdf() of another at once.
+struct BsdfValue {
+  Rgb value{};
+  float pdf = 0;
+};
+BsdfValue evaluateWithPdf(const Bsdf& bsdf, Vec3f wo, Vec3f wi, LobeSet set, LobeSet sampled);
 std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f u,
                                  LobeSet set = LobeSet::all,
                                  Transport transport = Transport::radiance);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "lobelia/base/frame.h"
 
@@ -93,6 +94,8 @@ struct ShadingFrame : Frame {
 };
 
 inline constexpr int kMaxLobes = 8, kMaxFrames = 4;
+// Lobes beyond the count are not initialised: a Bsdf is made at every hit, and filling them all
+// costs more than what most surfaces need of it.
 struct Bsdf {
   // The first is the surface's for whoever wants one (AOVs). More where coats and the branches of
   // blends have normals of their own.
@@ -101,9 +104,12 @@ struct Bsdf {
   Vec3f ng{0, 0, 1};          // geometric normal, on the same side as the frames' outside
   Vec3f baseNormal{0, 0, 1};  // shading normal before bump and normal maps
   int lobeCount = 0;
-  Lobe lobes[kMaxLobes];
+  union {
+    Lobe lobes[kMaxLobes];
+  };
+  Bsdf() {}
   void add(const Lobe& lobe) {
-    if (lobeCount < kMaxLobes) lobes[lobeCount++] = lobe;
+    if (lobeCount < kMaxLobes) std::construct_at(&lobes[lobeCount++], lobe);
   }
   // Index of an equal frame or of a new one; of the first where there is no room (validate() says
   // so).

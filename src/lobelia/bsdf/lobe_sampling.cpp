@@ -183,6 +183,36 @@ float lobePdf(const Lobe& lobe, Vec3f woGiven, Vec3f wiGiven) {
   return 0;
 }
 
+namespace {
+
+// GGX samples the normals that wo sees, whose density is the greater part of the value.
+LobeValue ggxReflection(const Lobe& lobe, Vec3f wo, Vec3f wi, bool behind) {
+  const Vec3f m = normalize(wo + wi);
+  const float cosine = dot(wo, m);
+  if (!(wi.z > 0) || !(cosine > 0)) return {};
+  const auto masking = [&](Vec3f w) {
+    return core::smithMasking(Distribution::ggx, lobe.alphaX, lobe.alphaY, toCore(w));
+  };
+  const float pdf =
+      core::microfacetDensity(Distribution::ggx, lobe.alphaX, lobe.alphaY, toCore(m)) *
+      masking(wo) / (4 * wo.z);
+  return {lobe.weight * fresnelOf(lobe, cosine, behind && lobe.interface) * (pdf * masking(wi)),
+          pdf};
+}
+
+}  // namespace
+
+LobeValue evaluateWithPdf(const Lobe& lobe, Vec3f wo, Vec3f wi) {
+  const bool plain = lobe.type == LobeType::microfacetReflection &&
+                     lobe.distribution == Distribution::ggx &&
+                     lobe.fresnel != Fresnel::principled && !isCoated(lobe);
+  if (!plain) return {evaluateLobe(lobe, wo, wi), lobePdf(lobe, wo, wi)};
+  if (!isActive(lobe, wo.z)) return {};
+  const bool behind = wo.z < 0;
+  return behind ? ggxReflection(lobe, flipZ(wo), flipZ(wi), true)
+                : ggxReflection(lobe, wo, wi, false);
+}
+
 std::optional<Vec3f> sampleInterface(const Lobe& reflection, const Lobe& transmission, Vec3f wo,
                                      float u1, Vec2f u) {
   const bool behind = wo.z < 0;

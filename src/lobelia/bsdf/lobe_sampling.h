@@ -14,6 +14,13 @@ std::optional<Vec3f> sampleLobe(const Lobe& lobe, Vec3f wo, Vec2f u);
 // Density of sampleLobe() per solid angle of wi.
 float lobePdf(const Lobe& lobe, Vec3f wo, Vec3f wi);
 
+// evaluateLobe() (radiance) and lobePdf() at once.
+struct LobeValue {
+  Rgb value{};
+  float pdf = 0;
+};
+LobeValue evaluateWithPdf(const Lobe& lobe, Vec3f wo, Vec3f wi);
+
 // A rough interface: reflection and transmission of the same micro-normals, chosen between by the
 // Fresnel reflectance of the normal. u1 chooses.
 std::optional<Vec3f> sampleInterface(const Lobe& reflection, const Lobe& transmission, Vec3f wo,

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "lobelia/base/prefetch.h"
 #include "lobelia/base/random.h"
 #include "lobelia/path/emitter_tree.h"
 #include "lobelia/path/finite_lights.h"
@@ -80,19 +81,25 @@ struct EmitterSampler::Impl {
     return treeProbability > 0 ? even + treeProbability * tree.probability(p, n, light) : even;
   }
 
-  std::optional<EmitterDirection> sampleFinite(uint32_t light, float chosen, Vec3f p,
-                                               Vec2f u) const {
-    const auto s = finite.sample(light, p, u);
-    if (!s) return std::nullopt;
-    EmitterDirection out;
-    out.wi = s->wi;
-    out.distance = s->distance;
-    out.target = s->target;
-    out.delta = finite.isPoint(light);
-    out.pdf = out.delta ? 0.f : s->pdf * chosen;
-    out.weight = s->value / (out.delta ? chosen : out.pdf);
-    out.emitter = finite.emitter(light);
-    return out;
+  // What remains of a number that chose the uniform choice.
+  float uniformNumber(float choice) const {
+    return std::clamp((choice - treeProbability) / uniformProbability, 0.f, 0x1.fffffep-1f);
+  }
+
+  bool sampleFinite(uint32_t light, float chosen, Vec3f p, Vec2f u, EmitterDirection& out) const {
+    const auto take = [&](const std::optional<LightSample>& s, bool delta) {
+      if (!s) return false;
+      out.wi = s->wi;
+      out.distance = s->distance;
+      out.target = s->target;
+      out.delta = delta;
+      out.pdf = delta ? 0.f : s->pdf * chosen;
+      out.weight = s->value / (delta ? chosen : s->pdf * chosen);
+      out.emitter = finite.emitter(light);
+      return true;
+    };
+    return finite.isTriangle(light) ? take(finite.sampleTriangle(light, p, u), false)
+                                    : take(finite.sampleOther(light, p, u), finite.isPoint(light));
   }
 };
 
@@ -106,30 +113,64 @@ bool EmitterSampler::empty() const {
 const Scene& EmitterSampler::scene() const { return impl_->scene; }
 double EmitterSampler::power() const { return impl_->rays.total(); }
 
-std::optional<EmitterDirection> EmitterSampler::sampleDirection(Vec3f p, Vec3f n, Vec3f u) const {
+bool EmitterSampler::sampleDirection(Vec3f p, Vec3f n, float select, Vec2f place,
+                                     EmitterDirection& out) const {
   const Impl& impl = *impl_;
-  float choice = u.x;
+  float choice = select;
   for (size_t i = 0; i < impl.infinite.size(); ++i) {
     const InfiniteLight& light = impl.infinite[i];
-    if (choice < light.probability) return impl.infinite.sample(light, n, {u.y, u.z});
+    if (choice < light.probability) {
+      const auto s = impl.infinite.sample(light, n, place);
+      if (s) out = *s;
+      return s.has_value();
+    }
     choice -= light.probability;
   }
   if (choice < impl.treeProbability) {
     // The 24 bits of one number would not tell 10^6 emitters apart: more come from the other two.
-    const uint64_t low = hashCombine(std::bit_cast<uint32_t>(u.y), std::bit_cast<uint32_t>(u.z));
+    const uint64_t low =
+        hashCombine(std::bit_cast<uint32_t>(place.x), std::bit_cast<uint32_t>(place.y));
     const double fine = static_cast<double>(choice) + static_cast<double>(low >> 40) * 0x1p-48;
     const auto chosen = impl.tree.sample(
         p, n, std::min(fine / static_cast<double>(impl.treeProbability), 0x1.fffffffffffffp-1));
-    if (!chosen) return std::nullopt;
+    if (!chosen) return false;
     const float probability =
         impl.treeProbability * chosen->probability + impl.uniformShare[chosen->light];
-    return impl.sampleFinite(chosen->light, probability, p, {u.y, u.z});
+    return impl.sampleFinite(chosen->light, probability, p, place, out);
   }
-  if (!(impl.uniformProbability > 0)) return std::nullopt;  // rounding at the very end of [0,1)
-  const float rest = (choice - impl.treeProbability) / impl.uniformProbability;
-  const uint32_t light =
-      static_cast<uint32_t>(impl.uniform.sample(std::clamp(rest, 0.f, 0x1.fffffep-1f)));
-  return impl.sampleFinite(light, impl.probability(light, p, n), p, {u.y, u.z});
+  if (!(impl.uniformProbability > 0)) return false;  // rounding at the very end of [0,1)
+  const uint32_t light = static_cast<uint32_t>(impl.uniform.sample(impl.uniformNumber(choice)));
+  return impl.sampleFinite(light, impl.probability(light, p, n), p, place, out);
+}
+
+bool EmitterSampler::scattered() const {
+  return !impl_->tree.empty() || impl_->infinite.hasEnvironments();
+}
+
+void EmitterSampler::prefetch(std::span<const Vec3f> u) const {
+  const Impl& impl = *impl_;
+  const bool manyLights = !impl.tree.empty();
+  std::vector<std::vector<Vec2f>> infinite(impl.infinite.size());
+  std::vector<float> uniform;
+  for (const Vec3f& v : u) {
+    float choice = v.x;
+    size_t i = 0;
+    while (i < infinite.size() && !(choice < impl.infinite[i].probability))
+      choice -= impl.infinite[i++].probability;
+    if (i < infinite.size()) {
+      infinite[i].push_back({v.y, v.z});
+    } else if (manyLights && !(choice < impl.treeProbability)) {
+      uniform.push_back(impl.uniformNumber(choice));
+    }
+  }
+  for (size_t i = 0; i < infinite.size(); ++i)
+    impl.infinite.prefetch(impl.infinite[i], infinite[i]);
+  for (const float v : uniform) impl.uniform.prefetch(v);
+  for (const float v : uniform) {
+    const size_t light = impl.uniform.sample(v);
+    impl.finite.prefetch(static_cast<uint32_t>(light));
+    prefetchRead(&impl.uniformShare[light]);
+  }
 }
 
 float EmitterSampler::pdfHit(Vec3f p, Vec3f n, const SurfacePoint& hit, Vec3f wi) const {
@@ -149,6 +190,9 @@ Rgb EmitterSampler::emitted(const SurfacePoint& hit, Vec3f wo) const {
 }
 
 Rgb EmitterSampler::escaped(Vec3f d) const { return impl_->infinite.escaped(d); }
+Rgb EmitterSampler::escaped(Vec3f d, Vec3f n, float* pdf) const {
+  return impl_->infinite.escaped(d, n, pdf);
+}
 Rgb EmitterSampler::environment(Vec3f d) const { return impl_->infinite.environment(d); }
 
 Rgb EmitterSampler::environment(Vec3f d, size_t group) const {

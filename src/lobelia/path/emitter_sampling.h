@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "lobelia/base/sampling.h"
 #include "lobelia/scene/light_groups.h"
@@ -41,9 +42,17 @@ class EmitterSampler {
 
   bool empty() const;
   // n: unit normal on the side that light counts from, or zero when it counts from both sides.
-  // u.x selects the emitter, (u.y, u.z) a place on it. Empty: nothing arrives (a sample of value
-  // 0).
-  std::optional<EmitterDirection> sampleDirection(Vec3f p, Vec3f n, Vec3f u) const;
+  // select, u.x: selects the emitter; place, (u.y, u.z): where on it. False or empty: nothing
+  // arrives (a sample of value 0).
+  bool sampleDirection(Vec3f p, Vec3f n, float select, Vec2f place, EmitterDirection& out) const;
+  std::optional<EmitterDirection> sampleDirection(Vec3f p, Vec3f n, Vec3f u) const {
+    EmitterDirection out;
+    return sampleDirection(p, n, u.x, {u.y, u.z}, out) ? std::optional(out) : std::nullopt;
+  }
+  // Are there environments or many lights, where one sample reads far from another? Asks memory for
+  // what sampleDirection() will read for these numbers, wherever p is.
+  bool scattered() const;
+  void prefetch(std::span<const Vec3f> u) const;
   // Density with which sampleDirection(p, n) returns the direction of this hit on an emitter.
   float pdfHit(Vec3f p, Vec3f n, const SurfacePoint& hit, Vec3f wi) const;
   float pdfEscaped(Vec3f p, Vec3f n, Vec3f wi) const;
@@ -52,6 +61,8 @@ class EmitterSampler {
   // Radiance from environments and the discs of suns along an escaping ray of direction d; of
   // environments alone.
   Rgb escaped(Vec3f d) const;
+  // And pdfEscaped(p, n, d) at once, wherever p is.
+  Rgb escaped(Vec3f d, Vec3f n, float* pdf) const;
   Rgb environment(Vec3f d) const;
   // The same of the environments of one light group.
   Rgb environment(Vec3f d, size_t group) const;

@@ -14,7 +14,6 @@ constexpr size_t kSubtreeSize = 4096;  // ranges up to this size are built by on
 // In large trees ranges this small are halved: looking for the best split of each would take most
 // of the time of building.
 constexpr size_t kHalved = 8, kLargeTree = 1024;
-constexpr uint32_t kLeafBit = 0x80000000u;
 
 // Cone of normals with the widest emission around them.
 struct Cone {
@@ -85,10 +84,67 @@ struct Cluster {
   }
 };
 
-int16_t quantise(float x) {
+// A node of the binary tree that is built first.
+struct Branch {
+  Vec3f centre, axis;
+  float radius, cosThetaO, cosThetaE, intensity;
+  uint32_t next;  // inner: index of the left child, which the right one follows; leaf: light
+  bool isLeaf() const { return (next & EmitterTreeNode::kLeafBit) != 0; }
+};
+
+int16_t quantiseAxis(float x) {
   return static_cast<int16_t>(std::lround(std::clamp(x, -1.f, 1.f) * 32767.f));
 }
-float dequantise(int16_t x) { return static_cast<float>(x) * (1 / 32767.f); }
+int8_t quantiseCosine(float x) {
+  return static_cast<int8_t>(std::floor(std::clamp(x, -1.f, 1.f) * 127.f));
+}
+float axisOf(int16_t x) { return static_cast<float>(x) * (1 / 32767.f); }
+float cosineOf(int8_t x) { return static_cast<float>(x) * (1 / 127.f); }
+
+void setCluster(const Branch& from, int slot, EmitterTreeNode& to) {
+  to.x[slot] = from.centre.x, to.y[slot] = from.centre.y, to.z[slot] = from.centre.z;
+  to.radius[slot] = from.radius;
+  to.intensity[slot] = from.intensity;
+  to.axisX[slot] = quantiseAxis(from.axis.x), to.axisY[slot] = quantiseAxis(from.axis.y);
+  to.axisZ[slot] = quantiseAxis(from.axis.z);
+  to.cosThetaO[slot] = quantiseCosine(from.cosThetaO);
+  to.cosThetaE[slot] = quantiseCosine(from.cosThetaE);
+  to.next[slot] = from.next;
+}
+
+// Three levels at a time; a leaf above the third level takes the first of the places below it.
+std::vector<EmitterTreeNode> widen(const std::vector<Branch>& branches) {
+  std::vector<EmitterTreeNode> nodes;
+  std::vector<uint32_t> roots{0};  // of the nodes, in their order
+  for (size_t i = 0; i < roots.size() && !branches.empty(); ++i) {
+    EmitterTreeNode node{};
+    const auto place = [&](const auto& self, uint32_t branch, int level, int slot) -> void {
+      const Branch& from = branches[branch];
+      if (!from.isLeaf() && level < EmitterTreeNode::kBits) {
+        self(self, from.next, level + 1, slot << 1);
+        self(self, from.next + 1, level + 1, slot << 1 | 1);
+        return;
+      }
+      slot <<= EmitterTreeNode::kBits - level;
+      setCluster(from, slot, node);
+      if (from.isLeaf()) return;
+      node.next[slot] = static_cast<uint32_t>(roots.size());
+      roots.push_back(branch);
+    };
+    place(place, roots[i], 0, 0);
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+// From a bit per level to kBits per node; kAbsent stays.
+constexpr uint64_t kAbsent = ~0ull;
+uint64_t slotsOf(uint64_t path) {
+  if (path == kAbsent) return kAbsent;
+  const int levels = static_cast<int>(std::bit_width(path)) - 1;
+  const int steps = std::max(1, (levels + EmitterTreeNode::kBits - 1) / EmitterTreeNode::kBits);
+  return path << (steps * EmitterTreeNode::kBits - levels);
+}
 
 // cos(max(0, a - b)) and sin(max(0, a - b)) for angles in [0, pi].
 struct Angle {
@@ -106,8 +162,8 @@ int bitsFor(size_t count) { return static_cast<int>(std::bit_width(count == 0 ? 
 
 struct EmitterTree::Builder {
   std::span<const TreeLight> lights;
-  std::vector<Node>& nodes;
-  std::vector<uint64_t>& paths;
+  std::vector<Branch>& nodes;
+  std::vector<uint64_t>& paths;  // per light: below a leading one, a bit per level (1: right)
   std::vector<uint32_t> order;
 
   // A range of `order` that becomes the subtree at nodes[node]; the nodes below it start at
@@ -176,15 +232,13 @@ struct EmitterTree::Builder {
   }
 
   void store(const Cluster& cluster, uint32_t next, size_t node) {
-    Node& out = nodes[node];
-    out.centre = cluster.bounds.centre();
-    out.radius2 = 0.25f * lengthSquared(cluster.bounds.extent());
-    for (int a = 0; a < 3; ++a) out.axis[a] = quantise(cluster.cone.axis[a]);
-    out.cosThetaO = quantise(cluster.cone.cosO);
-    out.sinThetaO = quantise(std::sqrt(std::max(0.f, 1 - sqr(cluster.cone.cosO))));
-    out.cosThetaE = quantise(cluster.cone.cosE);
-    out.intensity = cluster.intensity;
-    out.next = next;
+    nodes[node] = {cluster.bounds.centre(),
+                   cluster.cone.axis,
+                   0.5f * length(cluster.bounds.extent()),
+                   cluster.cone.cosO,
+                   cluster.cone.cosE,
+                   cluster.intensity,
+                   next};
   }
 
   // Divides a range; m lights take 2m - 2 nodes below their root, so that places are known before.
@@ -201,7 +255,7 @@ struct EmitterTree::Builder {
       const uint32_t light = order[t.begin];
       cluster.add(lights[light]);
       paths[light] = t.path;
-      store(cluster, light | kLeafBit, t.node);
+      store(cluster, light | EmitterTreeNode::kLeafBit, t.node);
       return cluster;
     }
     const auto [left, right] = divide(t);
@@ -238,109 +292,61 @@ struct EmitterTree::Builder {
 };
 
 EmitterTree::EmitterTree(std::span<const TreeLight> lights) {
-  paths_.assign(lights.size(), kAbsent);
-  Builder builder{lights, nodes_, paths_, {}};
+  slots_.assign(lights.size(), kAbsent);
+  std::vector<Branch> branches;
+  Builder builder{lights, branches, slots_, {}};
   for (size_t i = 0; i < lights.size(); ++i) {
     if (lights[i].intensity > 0) builder.order.push_back(static_cast<uint32_t>(i));
   }
-  if (!builder.order.empty()) nodes_.resize(2 * builder.order.size() - 1);
+  if (!builder.order.empty()) branches.resize(2 * builder.order.size() - 1);
   builder.buildAll();
-}
-
-// [Conty18, section 5]: intensity times the largest cosines that the box allows, over the squared
-// distance, which is not let below the box's radius: inside a cluster nothing is known of where
-// its emitters are.
-float EmitterTree::importance(const Node& node, Vec3f p, Vec3f n) {
-  const Vec3f toCentre = node.centre - p;
-  const float d2 = lengthSquared(toCentre);
-  if (d2 <= node.radius2) return node.intensity / std::max(node.radius2, 1e-30f);
-  const float inverse2 = 1 / d2, inverse = std::sqrt(inverse2);
-  const float sinBox2 = node.radius2 * inverse2;
-  const Angle box{std::sqrt(1 - sinBox2), std::sqrt(sinBox2)};
-  float result = node.intensity * inverse2;
-  if (node.cosThetaO > -32767) {
-    const Vec3f axis{dequantise(node.axis[0]), dequantise(node.axis[1]), dequantise(node.axis[2])};
-    const Angle cone{dequantise(node.cosThetaO), dequantise(node.sinThetaO)};
-    const Angle leaving = minus(minus(fromCosine(-dot(axis, toCentre) * inverse), cone), box);
-    // A little slack for the quantised cone.
-    if (leaving.cosine <= dequantise(node.cosThetaE) - 1e-3f) return 0;
-    result *= std::max(leaving.cosine, 1e-3f);
-  }
-  if (n != Vec3f{}) {
-    result *= std::max(0.f, minus(fromCosine(dot(n, toCentre) * inverse), box).cosine);
-  }
-  return result;
-}
-
-// The nodes below two siblings, one pair of which is needed next: on their way from memory while
-// the siblings are weighed.
-void EmitterTree::prefetchBelow(size_t children) const {
-#if defined(__GNUC__)
-  for (const size_t child : {children, children + 1}) {
-    const uint32_t next = nodes_[child].next;
-    if (next & kLeafBit) continue;
-    // 72 bytes, two cache lines.
-    const Node* const pair = nodes_.data() + next;
-    __builtin_prefetch(pair);
-    __builtin_prefetch(reinterpret_cast<const char*>(pair + 2) - 1);
-  }
-#else
-  (void)children;
-#endif
+  nodes_ = widen(branches);
+  for (uint64_t& path : slots_) path = slotsOf(path);
 }
 
 std::optional<EmitterTree::Choice> EmitterTree::sample(Vec3f p, Vec3f n, double u) const {
   if (nodes_.empty()) return std::nullopt;
-  size_t node = 0;
-  double probability = 1;
-  while (!(nodes_[node].next & kLeafBit)) {
-    const size_t children = nodes_[node].next;
-    prefetchBelow(children);
-    const double left = importance(nodes_[children], p, n);
-    const double right = importance(nodes_[children + 1], p, n);
-    if (!(left + right > 0)) return std::nullopt;
-    const double share = left / (left + right);
-    if (u < share) {
-      u = std::min(u / share, 0x1.fffffffffffffp-1);
-      probability *= share;
-      node = children;
-    } else {
-      u = std::min((u - share) / (1 - share), 0x1.fffffffffffffp-1);
-      probability *= 1 - share;
-      node = children + 1;
-    }
-  }
-  return Choice{nodes_[node].next & ~kLeafBit, static_cast<float>(probability)};
+  const EmitterTreeChoice choice = sampleEmitterTree(nodes_.data(), p, n, u);
+  if (!(choice.probability > 0)) return std::nullopt;
+  return Choice{choice.light, choice.probability};
 }
 
 float EmitterTree::probability(Vec3f p, Vec3f n, uint32_t light) const {
-  const uint64_t path = paths_[light];
-  if (path == kAbsent) return 0;
-  size_t node = 0;
-  double probability = 1;
-  for (int level = static_cast<int>(std::bit_width(path)) - 2; level >= 0; --level) {
-    const size_t children = nodes_[node].next;
-    prefetchBelow(children);
-    const double left = importance(nodes_[children], p, n);
-    const double right = importance(nodes_[children + 1], p, n);
-    if (!(left + right > 0)) return 0;
-    const double share = left / (left + right);
-    if ((path >> level) & 1) {
-      probability *= 1 - share;
-      node = children + 1;
-    } else {
-      probability *= share;
-      node = children;
-    }
-    if (probability == 0) return 0;
-  }
-  return static_cast<float>(probability);
+  if (slots_[light] == kAbsent) return 0;
+  return emitterTreeProbability(nodes_.data(), p, n, slots_[light]);
 }
 
+namespace {
+
+// [Conty18, section 5]: intensity times the largest cosines that the box allows, over the squared
+// distance, which is not let below the box's radius: inside a cluster nothing is known of where
+// its emitters are. What the kernels compute for eight clusters at once, step by step.
+float importance(const EmitterTreeNode& node, int slot, Vec3f p, Vec3f n) {
+  const Vec3f toCentre = Vec3f{node.x[slot], node.y[slot], node.z[slot]} - p;
+  const float d2 = lengthSquared(toCentre), radius = node.radius[slot], radius2 = radius * radius;
+  const float inverse2 = 1 / std::max({d2, radius2, 1e-30f}), inverse = std::sqrt(inverse2);
+  if (d2 <= radius2) return node.intensity[slot] * inverse2;
+  const float sinBox = std::min(radius * inverse, 1.f);
+  const Angle box{fromCosine(sinBox).sine, sinBox};
+  float result = 1;
+  if (node.cosThetaO[slot] > -127) {
+    const Vec3f axis{axisOf(node.axisX[slot]), axisOf(node.axisY[slot]), axisOf(node.axisZ[slot])};
+    const Angle cone = fromCosine(cosineOf(node.cosThetaO[slot]));
+    const Angle leaving = minus(minus(fromCosine(-(dot(axis, toCentre) * inverse)), cone), box);
+    if (leaving.cosine <= cosineOf(node.cosThetaE[slot]) - kLeastCosine) return 0;
+    result = std::max(leaving.cosine, kLeastCosine);
+  }
+  if (n != Vec3f{})
+    result *= std::max(0.f, minus(fromCosine(dot(n, toCentre) * inverse), box).cosine);
+  return node.intensity[slot] * inverse2 * result;
+}
+
+}  // namespace
+
 std::vector<float> EmitterTree::probabilities(Vec3f p, Vec3f n) const {
-  std::vector<float> result(paths_.size(), 0.f);
+  std::vector<float> result(slots_.size(), 0.f);
   struct Entry {
-    size_t node;
+    uint32_t node;
     double probability;
   };
   std::vector<Entry> stack;
@@ -348,22 +354,24 @@ std::vector<float> EmitterTree::probabilities(Vec3f p, Vec3f n) const {
   while (!stack.empty()) {
     const Entry entry = stack.back();
     stack.pop_back();
-    const Node& node = nodes_[entry.node];
-    if (node.next & kLeafBit) {
-      result[node.next & ~kLeafBit] = static_cast<float>(entry.probability);
-      continue;
+    const EmitterTreeNode& node = nodes_[entry.node];
+    double weights[EmitterTreeNode::kWidth], sum = 0;
+    for (int i = 0; i < EmitterTreeNode::kWidth; ++i)
+      sum += weights[i] = static_cast<double>(importance(node, i, p, n));
+    for (int i = 0; i < EmitterTreeNode::kWidth; ++i) {
+      if (!(weights[i] > 0)) continue;
+      const double probability = entry.probability * (weights[i] / sum);
+      if (node.next[i] & EmitterTreeNode::kLeafBit)
+        result[node.next[i] & ~EmitterTreeNode::kLeafBit] = static_cast<float>(probability);
+      else
+        stack.push_back({node.next[i], probability});
     }
-    const double left = importance(nodes_[node.next], p, n);
-    const double right = importance(nodes_[node.next + 1], p, n);
-    if (!(left + right > 0)) continue;
-    stack.push_back({node.next, entry.probability * left / (left + right)});
-    stack.push_back({node.next + 1, entry.probability * right / (left + right)});
   }
   return result;
 }
 
 size_t EmitterTree::bytes() const {
-  return nodes_.size() * sizeof(Node) + paths_.size() * sizeof(uint64_t);
+  return nodes_.size() * sizeof(EmitterTreeNode) + slots_.size() * sizeof(uint64_t);
 }
 
 }  // namespace lobelia

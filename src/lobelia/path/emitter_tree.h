@@ -8,7 +8,10 @@
 //  - the weight of a cluster is the sum of its emitters' intensities along their axes (luminance),
 //    not their flux, so that a spot and an omni light that look alike at a point weigh alike;
 //  - one emitter per leaf; each keeps the path from the root as bits, so that its probability is
-//    found without parent links.
+//    found without parent links;
+//  - the binary tree is taken three levels at a time: of the eight clusters that it is divided into
+//    one is chosen in proportion to the estimates, which are computed side by side
+//    (emitter_tree_kernels.cpp).
 #pragma once
 
 #include <cstdint>
@@ -16,7 +19,7 @@
 #include <span>
 #include <vector>
 
-#include "lobelia/base/vec.h"
+#include "lobelia/path/emitter_tree_node.h"
 
 namespace lobelia {
 
@@ -52,24 +55,10 @@ class EmitterTree {
   size_t bytes() const;
 
  private:
-  // A bounding sphere, whose radius is half the box's diagonal, and a cone; fixed point numbers are
-  // in units of 1 / 32767.
-  struct Node {
-    Vec3f centre;
-    float radius2;
-    int16_t axis[3], cosThetaO, sinThetaO, cosThetaE;
-    float intensity;
-    uint32_t next;  // inner: index of the left child, which the right one follows; leaf: light
-  };
-  static_assert(sizeof(Node) == 36);
   struct Builder;
 
-  static float importance(const Node& node, Vec3f p, Vec3f n);
-  void prefetchBelow(size_t children) const;
-  static constexpr uint64_t kAbsent = ~0ull;
-
-  std::vector<Node> nodes_;      // the root first, siblings side by side
-  std::vector<uint64_t> paths_;  // per light: below a leading one, a bit per level (1: right)
+  std::vector<EmitterTreeNode> nodes_;  // the root first
+  std::vector<uint64_t> slots_;         // per light, as emitterTreeProbability() wants it
 };
 
 }  // namespace lobelia

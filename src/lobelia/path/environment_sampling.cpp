@@ -38,8 +38,9 @@ EnvironmentSampler::EnvironmentSampler(const Scene& scene, const Emitter& emitte
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < width; ++x) {
       const int x1 = x + 1 == width ? 0 : x + 1;
-      const float weight = 0.25f * (nodeWeight(x, y) + nodeWeight(x1, y) + nodeWeight(x, y + 1) +
-                                    nodeWeight(x1, y + 1));
+      const Cell cell{x, x1, y, y + 1, 0, 0};
+      const Corners w = corners(cell, image_.texels(cell));
+      const float weight = 0.25f * (w.w00 + w.w10 + w.w01 + w.w11);
       weights[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)] =
           weight;
       sum += static_cast<double>(weight);
@@ -50,15 +51,15 @@ EnvironmentSampler::EnvironmentSampler(const Scene& scene, const Emitter& emitte
   integral_ = 2.0 * kPi * kPi * mean_ * static_cast<double>(std::abs(emitter.scale));
 }
 
-float EnvironmentSampler::nodeWeight(int x, int y) const {
-  const Rgb c = image_.texel(x, y);
+float EnvironmentSampler::nodeWeight(Rgb c, int y) const {
   const float weight = luminance({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
   return std::isfinite(weight) ? weight * rowSine_[static_cast<size_t>(y)] : 0.f;
 }
 
-EnvironmentSampler::Corners EnvironmentSampler::corners(const Cell& c) const {
-  return {nodeWeight(c.x0, c.y0), nodeWeight(c.x1, c.y0), nodeWeight(c.x0, c.y1),
-          nodeWeight(c.x1, c.y1)};
+EnvironmentSampler::Corners EnvironmentSampler::corners(const Cell& c,
+                                                        const SphericalImage::Texels& t) const {
+  return {nodeWeight(t.c00, c.y0), nodeWeight(t.c10, c.y0), nodeWeight(t.c01, c.y1),
+          nodeWeight(t.c11, c.y1)};
 }
 
 float EnvironmentSampler::density(const Cell& c, const Corners& w, Vec3f local,
@@ -83,6 +84,19 @@ Rgb EnvironmentSampler::radiance(Vec3f d) const {
   return image_.at(toLocal(d, &jacobian)) * value_;
 }
 
+Rgb EnvironmentSampler::radiance(Vec3f d, Vec3f n, float* pdf) const {
+  if (constant_) {
+    *pdf = this->pdf(n, d);
+    return value_;
+  }
+  float jacobian;
+  const Vec3f local = toLocal(d, &jacobian);
+  const Cell c = image_.cellAt(image_.toSquare(local));
+  const SphericalImage::Texels texels = image_.texels(c);
+  *pdf = density(c, corners(c, texels), local, jacobian);
+  return SphericalImage::between(texels, c) * value_;
+}
+
 Vec3f EnvironmentSampler::sample(Vec3f n, Vec2f u, float* pdf, Rgb* radiance) const {
   if (constant_) {
     if (radiance) *radiance = value_;
@@ -97,7 +111,8 @@ Vec3f EnvironmentSampler::sample(Vec3f n, Vec2f u, float* pdf, Rgb* radiance) co
   *pdf = 0;
   if (!(mean_ > 0)) return {0, 1, 0};
   Cell c = image_.cellAt(cells_.sample(u, nullptr));
-  const Corners w = corners(c);
+  const SphericalImage::Texels texels = image_.texels(c);
+  const Corners w = corners(c, texels);
   c.fy = sampleLinear(w.w00 + w.w10, w.w01 + w.w11, c.fy);
   c.fx = sampleLinear(lerp(w.w00, w.w01, c.fy), lerp(w.w10, w.w11, c.fy), c.fx);
   const Vec2f s{(static_cast<float>(c.x0) + c.fx) / static_cast<float>(image_.width()),
@@ -107,8 +122,17 @@ Vec3f EnvironmentSampler::sample(Vec3f n, Vec2f u, float* pdf, Rgb* radiance) co
   float jacobian;
   const Vec3f local = toLocal(d, &jacobian);
   *pdf = density(c, w, local, jacobian);
-  if (radiance) *radiance = image_.at(c) * value_;
+  if (radiance) *radiance = SphericalImage::between(texels, c) * value_;
   return d;
+}
+
+void EnvironmentSampler::prefetch(std::span<const Vec2f> u) const {
+  if (constant_ || !(mean_ > 0)) return;
+  std::vector<size_t> cells(u.size());
+  cells_.prefetch(u, cells);
+  const size_t width = static_cast<size_t>(image_.width());
+  for (const size_t cell : cells)
+    image_.prefetch(static_cast<int>(cell % width), static_cast<int>(cell / width));
 }
 
 float EnvironmentSampler::pdf(Vec3f n, Vec3f d) const {
@@ -118,7 +142,7 @@ float EnvironmentSampler::pdf(Vec3f n, Vec3f d) const {
   float jacobian;
   const Vec3f local = toLocal(d, &jacobian);
   const Cell c = image_.cellAt(image_.toSquare(local));
-  return density(c, corners(c), local, jacobian);
+  return density(c, corners(c, image_.texels(c)), local, jacobian);
 }
 
 }  // namespace lobelia

@@ -18,11 +18,15 @@ class EnvironmentSampler {
 
   // Radiance that arrives along -d; d is a unit world direction towards the environment.
   Rgb radiance(Vec3f d) const;
+  // And pdf(n, d), which reads the same texels.
+  Rgb radiance(Vec3f d, Vec3f n, float* pdf) const;
   // Direction towards the environment and its density per solid angle; empty (pdf 0) by chance only
   // on rounding. n: cosine-weighted around it where the environment is constant, unless zero.
   // radiance: from the direction, unless null. It and the density are those of the direction before
   // it was rounded: radiance(d) and pdf(n, d) differ in the last digits.
   Vec3f sample(Vec3f n, Vec2f u, float* pdf, Rgb* radiance = nullptr) const;
+  // Asks memory for what sample() will read for these numbers.
+  void prefetch(std::span<const Vec2f> u) const;
   float pdf(Vec3f n, Vec3f d) const;
   // Luminance integrated over the sphere.
   double integral() const { return integral_; }
@@ -33,8 +37,8 @@ class EnvironmentSampler {
     float w00, w10, w01, w11;
   };
 
-  float nodeWeight(int x, int y) const;
-  Corners corners(const Cell& cell) const;
+  float nodeWeight(Rgb texel, int y) const;
+  Corners corners(const Cell& cell, const SphericalImage::Texels& texels) const;
   // With respect to solid angle, at the cell's position.
   float density(const Cell& cell, const Corners& corners, Vec3f local, float jacobian) const;
   Vec3f toLocal(Vec3f d, float* jacobian) const;

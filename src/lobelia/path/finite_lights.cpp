@@ -47,9 +47,7 @@ float usable(float estimate) { return estimate > 0 && std::isfinite(estimate) ? 
 }  // namespace
 
 FiniteLights::FiniteLights(const Scene& scene) : scene_(scene) {
-  firstLight_.assign(scene.instances.size(), kNone);
-  instanceArea_.assign(scene.instances.size(), 0);
-  plain_.assign(scene.instances.size(), 0);
+  instances_.resize(scene.instances.size());
   std::vector<uint32_t> sphereInstances;
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
@@ -57,11 +55,14 @@ FiniteLights::FiniteLights(const Scene& scene) : scene_(scene) {
     const Mesh& mesh = scene[instance.mesh];
     if (mesh.triangles.empty()) continue;
     ++emitterCount_;
-    plain_[i] = !masked(scene, instance) && !scene[instance.emitter].radiance.texture.valid();
+    InstanceLights& lights = instances_[i];
+    lights.emitter = instance.emitter.index;
+    lights.radiance = scene[instance.emitter].radiance.value;
+    lights.plain = !masked(scene, instance) && !scene[instance.emitter].radiance.texture.valid();
     // Spheres that emit inwards, or with a texture or mask (whose coordinates are the
     // tessellation's), are sampled as the triangles that they are.
     const auto scale = uniformScale(instance.toWorld.to);
-    if (mesh.isUnitSphere && scale && !instance.flipNormals && plain_[i]) {
+    if (mesh.isUnitSphere && scale && !instance.flipNormals && lights.plain) {
       SphereLight sphere;
       sphere.centre = instance.toWorld.point({});
       sphere.radius = *scale;
@@ -73,7 +74,7 @@ FiniteLights::FiniteLights(const Scene& scene) : scene_(scene) {
     }
   }
   for (uint32_t s = 0; s < spheres_.size(); ++s) {
-    firstLight_[spheres_[s].instance] = firstSphere() + s;
+    instances_[spheres_[s].instance].first = firstSphere() + s;
   }
   for (uint32_t e = 0; e < scene.emitters.size(); ++e) {
     if (!isPointLike(scene.emitters[e].type)) continue;
@@ -86,7 +87,7 @@ void FiniteLights::addInstance(uint32_t index) {
   const Instance& instance = scene_.instances[index];
   const Mesh& mesh = scene_[instance.mesh];
   const size_t first = triangles_.size();
-  firstLight_[index] = static_cast<uint32_t>(first);
+  instances_[index].first = static_cast<uint32_t>(first);
   triangles_.resize(first + mesh.triangles.size());
   parallelFor(mesh.triangles.size(), 1024, [&](size_t t) {
     const Vec3u v = mesh.triangles[t];
@@ -96,9 +97,11 @@ void FiniteLights::addInstance(uint32_t index) {
     light.e2 = instance.toWorld.point(mesh.positions[v.z]) - light.p0;
     light.instance = index;
     light.triangle = static_cast<uint32_t>(t);
-    const float scale = 1 / length(cross(light.e1, light.e2));
+    const Vec3f normal = cross(light.e1, light.e2);
+    const float scale = 1 / length(normal);
     if (!(scale > 0) || !std::isfinite(scale) || !std::isfinite(1 / scale)) return;
-    light.scale = scale;
+    light.n = normal * scale;
+    light.inverseArea = 2 * scale;
     // Which side is outside (winding, mirrored transforms, flipped normals) is surfacePoint()'s.
     Vec3f ng;
     for (const Vec2f b : {Vec2f{0, 0}, Vec2f{1, 0}, Vec2f{0, 1}}) {
@@ -106,18 +109,17 @@ void FiniteLights::addInstance(uint32_t index) {
       ng = at.ng;
       light.error = std::max(light.error, at.error);
     }
-    if (dot(light.normal(), ng) < 0) light.scale = -scale;
+    if (dot(light.n, ng) < 0) light.n = -light.n;
   });
   double area = 0;
   for (size_t t = first; t < triangles_.size(); ++t)
     area += static_cast<double>(triangles_[t].area());
-  instanceArea_[index] = static_cast<float>(area);
+  instances_[index].area = static_cast<float>(area);
 }
 
-Rgb FiniteLights::radiance(const TriangleLight& light, float b1, float b2) const {
+Rgb FiniteLights::variedRadiance(const TriangleLight& light, float b1, float b2) const {
   const Instance& instance = scene_.instances[light.instance];
   const ColorParam& value = scene_[instance.emitter].radiance;
-  if (plain_[light.instance]) return value.value;
   const Mesh& mesh = scene_[instance.mesh];
   TextureContext at;
   at.mesh = &mesh;
@@ -152,7 +154,7 @@ float FiniteLights::meanRadiance(const TriangleLight& light) const {
 std::vector<float> FiniteLights::uniformWeights() const {
   std::vector<float> weights(size(), 1.f);
   for (size_t i = 0; i < triangles_.size(); ++i) {
-    const float total = instanceArea_[triangles_[i].instance];
+    const float total = instances_[triangles_[i].instance].area;
     weights[i] = total > 0 ? triangles_[i].area() / total : 0.f;
   }
   return weights;
@@ -162,7 +164,7 @@ std::vector<float> FiniteLights::fluxes() const {
   std::vector<float> result(size(), 0.f);
   parallelFor(triangles_.size(), 4096, [&](size_t i) {
     const TriangleLight& light = triangles_[i];
-    if (light.scale != 0) result[i] = kPi * light.area() * meanRadiance(light);
+    if (light.inverseArea > 0) result[i] = kPi * light.area() * meanRadiance(light);
   });
   for (size_t i = 0; i < spheres_.size(); ++i) {
     const float r = spheres_[i].radius;
@@ -178,10 +180,10 @@ std::vector<TreeLight> FiniteLights::treeLights() const {
   std::vector<TreeLight> result(size());
   parallelFor(triangles_.size(), 4096, [&](size_t i) {
     const TriangleLight& light = triangles_[i];
-    if (light.scale == 0) return;
+    if (!(light.inverseArea > 0)) return;
     TreeLight& out = result[i];
     for (const Vec3f p : {light.p0, light.p0 + light.e1, light.p0 + light.e2}) out.bounds.add(p);
-    out.axis = light.normal();
+    out.axis = light.n;
     out.intensity = light.area() * meanRadiance(light);
   });
   for (size_t i = 0; i < spheres_.size(); ++i) {
@@ -201,27 +203,11 @@ uint32_t FiniteLights::emitter(uint32_t light) const {
   if (isPoint(light)) return points_[light - firstPoint()].emitter();
   const uint32_t instance =
       light < firstSphere() ? triangles_[light].instance : spheres_[light - firstSphere()].instance;
-  return scene_.instances[instance].emitter.index;
+  return instances_[instance].emitter;
 }
 
-std::optional<LightSample> FiniteLights::sample(uint32_t light, Vec3f p, Vec2f u) const {
+std::optional<LightSample> FiniteLights::sampleOther(uint32_t light, Vec3f p, Vec2f u) const {
   LightSample result;
-  if (light < firstSphere()) {
-    const TriangleLight& triangle = triangles_[light];
-    const Vec2f b = sampleTriangleUniform(u);
-    const Vec3f at = triangle.p0 + triangle.e1 * b.x + triangle.e2 * b.y;
-    const Vec3f n = triangle.normal();
-    const Vec3f to = at - p;
-    const float d2 = lengthSquared(to);
-    result.distance = std::sqrt(d2);
-    result.wi = to / result.distance;
-    const float cosine = -dot(n, result.wi);
-    if (!(cosine > 0) || !(d2 > 0)) return std::nullopt;
-    result.target = offsetOrigin(at, n, triangle.error, -result.wi);
-    result.value = radiance(triangle, b.x, b.y);
-    result.pdf = d2 * triangle.inverseArea() / cosine;
-    return result;
-  }
   if (light < firstPoint()) {
     const SphereLight& sphere = spheres_[light - firstSphere()];
     const Vec3f to = sphere.centre - p;
@@ -252,7 +238,7 @@ std::optional<LightSample> FiniteLights::sample(uint32_t light, Vec3f p, Vec2f u
 }
 
 std::optional<uint32_t> FiniteLights::lightOf(const SurfacePoint& hit) const {
-  const uint32_t first = firstLight_[hit.instance];
+  const uint32_t first = instances_[hit.instance].first;
   if (first == kNone) return std::nullopt;
   return first < firstSphere() ? first + hit.texture.triangle : first;
 }
@@ -262,7 +248,7 @@ float FiniteLights::pdf(uint32_t light, Vec3f p, const SurfacePoint& hit, Vec3f 
     const TriangleLight& triangle = triangles_[light];
     const float cosine = -dot(hit.ng, wi);
     if (!(cosine > 0)) return 0;
-    return lengthSquared(hit.p - p) * triangle.inverseArea() / cosine;
+    return lengthSquared(hit.p - p) * triangle.inverseArea / cosine;
   }
   const SphereLight& sphere = spheres_[light - firstSphere()];
   const Vec3f to = sphere.centre - p;
@@ -282,7 +268,7 @@ EmittedRay FiniteLights::sampleRay(uint32_t light, Vec2f uPosition, Vec2f uDirec
     const TriangleLight& triangle = triangles_[light];
     const Vec2f b = sampleTriangleUniform(uPosition);
     at = triangle.p0 + triangle.e1 * b.x + triangle.e2 * b.y;
-    out.ng = triangle.normal();
+    out.ng = triangle.n;
     out.power = radiance(triangle, b.x, b.y) * (kPi * triangle.area());
   } else {
     const SphereLight& sphere = spheres_[light - firstSphere()];

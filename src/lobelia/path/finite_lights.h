@@ -4,24 +4,23 @@
 
 #include <optional>
 
+#include "lobelia/base/prefetch.h"
 #include "lobelia/path/emitter_sampling.h"
 #include "lobelia/path/emitter_tree.h"
 #include "lobelia/path/point_lights.h"
 
 namespace lobelia {
 
-struct TriangleLight {
-  Vec3f p0, e1, e2;  // world space
+// A cache line, which is what a sample of one among many waits for.
+struct alignas(64) TriangleLight {
+  Vec3f p0, e1, e2;       // world space
+  Vec3f n;                // unit, on the side that emits
+  float inverseArea = 0;  // 0: degenerate, never chosen
+  float error = 0;        // SurfacePoint::error, the largest of its corners
   uint32_t instance = 0, triangle = 0;
-  // 1 / |e1 x e2|, negative when e1 x e2 points away from the side that emits; 0: degenerate, never
-  // chosen.
-  float scale = 0;
-  float error = 0;  // SurfacePoint::error, the largest of its corners
-  Vec3f normal() const { return cross(e1, e2) * scale; }
-  float inverseArea() const { return 2 * std::abs(scale); }
-  float area() const { return scale != 0 ? 1 / inverseArea() : 0.f; }
+  float area() const { return inverseArea > 0 ? 1 / inverseArea : 0.f; }
 };
-static_assert(sizeof(TriangleLight) == 52);
+static_assert(sizeof(TriangleLight) == 64);
 
 struct SphereLight {
   Vec3f centre;
@@ -52,7 +51,12 @@ class FiniteLights {
   uint32_t emitter(uint32_t light) const;
 
   // Empty where the light sends nothing towards p.
-  std::optional<LightSample> sample(uint32_t light, Vec3f p, Vec2f u) const;
+  bool isTriangle(uint32_t light) const { return light < firstSphere(); }
+  std::optional<LightSample> sampleTriangle(uint32_t light, Vec3f p, Vec2f u) const;
+  std::optional<LightSample> sampleOther(uint32_t light, Vec3f p, Vec2f u) const;
+  void prefetch(uint32_t light) const {
+    if (light < firstSphere()) prefetchRead(&triangles_[light]);
+  }
   // The light that a hit belongs to; empty when it emits nothing.
   std::optional<uint32_t> lightOf(const SurfacePoint& hit) const;
   // Density of sample(light, p) for the direction wi of the hit.
@@ -61,10 +65,23 @@ class FiniteLights {
   EmittedRay sampleRay(uint32_t light, Vec2f uPosition, Vec2f uDirection) const;
 
  private:
+  static constexpr uint32_t kNone = 0xffffffffu;
   uint32_t firstSphere() const { return static_cast<uint32_t>(triangles_.size()); }
   uint32_t firstPoint() const { return static_cast<uint32_t>(triangles_.size() + spheres_.size()); }
+  // What the lights of an instance have in common.
+  struct InstanceLights {
+    uint32_t first = kNone;  // of its lights; kNone when it does not emit
+    uint32_t emitter = 0;
+    float area = 0;
+    bool plain = false;  // radiance is one colour, without a mask
+    Rgb radiance{};      // if so
+  };
   void addInstance(uint32_t instance);
-  Rgb radiance(const TriangleLight& light, float b1, float b2) const;
+  Rgb radiance(const TriangleLight& light, float b1, float b2) const {
+    const InstanceLights& instance = instances_[light.instance];
+    return instance.plain ? instance.radiance : variedRadiance(light, b1, b2);
+  }
+  Rgb variedRadiance(const TriangleLight& light, float b1, float b2) const;
   Rgb radiance(const SphereLight& light) const;
   float meanRadiance(const TriangleLight& light) const;
 
@@ -72,11 +89,25 @@ class FiniteLights {
   std::vector<TriangleLight> triangles_;
   std::vector<SphereLight> spheres_;
   std::vector<PointLight> points_;
-  std::vector<uint32_t> firstLight_;  // per instance; kNone when it does not emit
-  std::vector<float> instanceArea_;
-  std::vector<uint8_t> plain_;  // per instance: radiance is one colour, without a mask
+  std::vector<InstanceLights> instances_;
   size_t emitterCount_ = 0;
-  static constexpr uint32_t kNone = 0xffffffffu;
 };
+
+inline std::optional<LightSample> FiniteLights::sampleTriangle(uint32_t index, Vec3f p,
+                                                               Vec2f u) const {
+  const TriangleLight& light = triangles_[index];
+  const Vec2f b = sampleTriangleUniform(u);
+  const Vec3f at = light.p0 + light.e1 * b.x + light.e2 * b.y;
+  const Vec3f to = at - p;
+  const float d2 = lengthSquared(to), along = -dot(light.n, to);
+  if (!(along > 0) || !(d2 > 0)) return std::nullopt;
+  LightSample result;
+  result.distance = std::sqrt(d2);
+  result.wi = to / result.distance;
+  result.target = offsetOrigin(at, light.n, light.error, -to);
+  result.value = radiance(light, b.x, b.y);
+  result.pdf = d2 * light.inverseArea * (result.distance / along);
+  return result;
+}
 
 }  // namespace lobelia

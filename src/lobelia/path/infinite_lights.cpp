@@ -85,6 +85,18 @@ Rgb InfiniteLights::escaped(Vec3f d) const {
   return sum;
 }
 
+Rgb InfiniteLights::escaped(Vec3f d, Vec3f n, float* pdf) const {
+  // Alone, and one that is sampled: the common case.
+  if (environments_.size() == 1 && discs_.empty() && lights_.size() == 1 &&
+      lights_[0].kind == Kind::environment) {
+    const Rgb radiance = environments_[0].radiance(d, n, pdf);
+    *pdf *= lights_[0].probability;
+    return radiance;
+  }
+  *pdf = pdfEscaped(n, d);
+  return escaped(d);
+}
+
 Rgb InfiniteLights::escaped(Vec3f d, uint32_t emitter) const {
   Rgb sum{};
   for (size_t i = 0; i < environments_.size(); ++i)

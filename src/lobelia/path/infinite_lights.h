@@ -37,11 +37,19 @@ class InfiniteLights {
 
   Rgb environment(Vec3f d) const;  // radiance from direction d, without the discs of suns
   Rgb escaped(Vec3f d) const;      // and with them
+  // And pdfEscaped(n, d) at once.
+  Rgb escaped(Vec3f d, Vec3f n, float* pdf) const;
   // The emitters that rays which escape see, and the part of escaped() that is one's.
   const std::vector<uint32_t>& seen() const { return seen_; }
   Rgb escaped(Vec3f d, uint32_t emitter) const;
   float pdfEscaped(Vec3f n, Vec3f d) const;
   std::optional<EmitterDirection> sample(const InfiniteLight& light, Vec3f n, Vec2f u) const;
+  // Asks memory for what sample() will read for these numbers.
+  void prefetch(const InfiniteLight& light, std::span<const Vec2f> u) const {
+    if (light.kind == InfiniteLight::Kind::environment)
+      environments_[light.environment].prefetch(u);
+  }
+  bool hasEnvironments() const { return !environments_.empty(); }
   // A ray into the scene, its flux over the density of the ray (selection not included).
   std::optional<EmittedRay> sampleRay(const InfiniteLight& light, Vec2f uPosition,
                                       Vec2f uDirection) const;

@@ -58,11 +58,17 @@ struct ExtraSums {
   }
 };
 
+// Has the film layers that describe the first surface?
+bool describes(const Film& film) {
+  return film.layers.contains("albedo") || film.layers.contains("normal") ||
+         film.layers.contains("depth");
+}
+
 class PathPasses {
  public:
   PathPasses(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
              const PathSettings& settings, Film& film, Context& context)
-      : walk_(tracer, emitters, settings),
+      : walk_(tracer, emitters, settings, describes(film)),
         emitters_(emitters),
         camera_(camera),
         settings_(settings),
@@ -72,10 +78,7 @@ class PathPasses {
         sums_(film.pixelCount()),
         extra_(emitters, film),
         start_(nanosecondsNow()) {
-    if (film.layers.contains("albedo") || film.layers.contains("normal") ||
-        film.layers.contains("depth")) {
-      guides_.resize(film.pixelCount());
-    }
+    if (describes(film)) guides_.resize(film.pixelCount());
     makeTiles();
     tileSamples_.assign(tiles_.size(), 0);
   }

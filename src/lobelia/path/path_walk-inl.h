@@ -1,6 +1,7 @@
 // The path tracer's loop, for any answerer of ray queries.
 #pragma once
 
+#include "lobelia/base/prefetch.h"
 #include "lobelia/path/path_observer.h"
 #include "lobelia/path/path_walk.h"
 #include "lobelia/trace/flush_denormals.h"
@@ -8,14 +9,6 @@
 namespace lobelia {
 
 inline Rgb absolute(Rgb c) { return {std::abs(c.x), std::abs(c.y), std::abs(c.z)}; }
-
-inline void prefetchRead(const void* address) {
-#if defined(__GNUC__)
-  __builtin_prefetch(address);
-#else
-  (void)address;
-#endif
-}
 
 // What surfacePoint() reads of the triangle, once its indices have arrived.
 template <class Rays>
@@ -28,6 +21,24 @@ void PathWalk<Rays>::prefetch(const Hit& hit) const {
     if (!mesh.normals.empty()) prefetchRead(&mesh.normals[i]);
     if (!mesh.uvs.empty()) prefetchRead(&mesh.uvs[i]);
   }
+}
+
+// The numbers that choose emitters come first, so that what they choose is on its way from memory
+// while the hits are dealt with.
+template <class Rays>
+void PathWalk<Rays>::chooseLights(std::span<PathState* const> paths) const {
+  const bool scattered = emitters_.scattered();
+  std::vector<Vec3f> numbers;
+  for (PathState* path : paths) {
+    const float select = path->random.next1D();
+    const Vec2f place = path->random.next2D();
+    path->lightNumbers = {select, place.x, place.y};
+    if (!scattered || !path->hit) continue;
+    const int count = directSamples(*path);
+    for (int i = 0; i < count; ++i)
+      numbers.push_back(directLightNumbers(path->lightNumbers, i, count));
+  }
+  if (scattered) emitters_.prefetch(numbers);
 }
 
 template <class Rays>
@@ -70,6 +81,7 @@ void PathWalk<Rays>::traceSome(std::span<PathState> paths, Shadows& shadows,
     for (size_t i = 0; i < count; ++i) {
       if (active[i]->hit) prefetch(*active[i]->hit);
     }
+    chooseLights(std::span(active, count));
     size_t left = 0;
     shadows.clear();
     for (size_t i = 0; i < count; ++i) {
@@ -168,10 +180,17 @@ void PathWalk<Rays>::lit(const PathShadow& shadow) const {
 }
 
 template <class Rays>
+void PathWalk<Rays>::escape(PathState& path) const {
+  if (path.deltaFrom) return meet(path, emitters_.escaped(path.ray.d), nullptr);
+  float pdf;
+  const Rgb radiance = emitters_.escaped(path.ray.d, path.from.n, &pdf);
+  meet(path, radiance * emissionWeight(path.pdfFrom, pdf, path.samplesFrom), nullptr);
+}
+
+// radiance: weighed against emitter samples.
+template <class Rays>
 void PathWalk<Rays>::meet(PathState& path, Rgb radiance, const SurfacePoint* hit) const {
   if (radiance == Rgb{} || (path.depth == 1 && settings_.hideEmitters)) return;
-  radiance *= emissionWeight(emitters_, path.from, hit, path.ray.d, path.pdfFrom, path.deltaFrom,
-                             path.samplesFrom);
   if (settings_.observer)
     settings_.observer->met(path, path.metDirect * radiance, path.metIndirect * radiance);
   const Rgb direct = path.metDirect * radiance, indirect = path.metIndirect * radiance;
@@ -184,7 +203,7 @@ void PathWalk<Rays>::meet(PathState& path, Rgb radiance, const SurfacePoint* hit
 template <class Rays>
 bool PathWalk<Rays>::advance(PathState& path, Shadows& shadows) const {
   if (!path.hit) {
-    meet(path, emitters_.escaped(path.ray.d), nullptr);
+    escape(path);
     return false;
   }
   const bool last = settings_.maxDepth >= 0 && path.depth >= settings_.maxDepth;
@@ -192,7 +211,15 @@ bool PathWalk<Rays>::advance(PathState& path, Shadows& shadows) const {
   const Vec3f wo = -path.ray.d;
   const Rgb inside = interiorTransmittance(emitters_.scene(), at, wo);
   path.chain *= inside, path.indirect *= inside;
-  if (at.emitter.valid()) meet(path, emitters_.emitted(at, wo), &at);
+  if (at.emitter.valid()) {
+    const Rgb radiance = emitters_.emitted(at, wo);
+    if (radiance != Rgb{}) {
+      meet(path,
+           radiance * emissionWeight(emitters_, path.from, &at, path.ray.d, path.pdfFrom,
+                                     path.deltaFrom, path.samplesFrom),
+           &at);
+    }
+  }
   if (last && path.depth > 1) return false;
   if (settings_.component == Component::direct && path.chain == Rgb{}) return false;
   if (path.depth > settings_.rouletteDepth) {
@@ -205,14 +232,14 @@ bool PathWalk<Rays>::advance(PathState& path, Shadows& shadows) const {
 
   const Bsdf bsdf = makeBsdf(emitters_.scene(), at, wo, settings_.specularLimit);
   if (settings_.observer) settings_.observer->vertex(path, at, bsdf);
-  if (path.depth == 1) {
+  if (path.depth == 1 && described_) {
     path.result.albedo = albedo(bsdf, wo);
     path.result.normal = bsdf.frames[0].n;
     path.result.depth = path.hit->t;
-    if (last) return false;
   }
+  if (last) return false;
   path.from = lightQuery(at, bsdf, wo);
-  path.samplesFrom = path.chain != Rgb{} ? std::max(settings_.directSamples, 1) : 1;
+  path.samplesFrom = directSamples(path);
 
   const bool wanted = settings_.component != Component::indirect || path.indirect != Rgb{};
   if (wanted && !onlyDelta(bsdf)) light(path, bsdf, wo, shadows);
@@ -237,14 +264,17 @@ bool PathWalk<Rays>::advance(PathState& path, Shadows& shadows) const {
 
 template <class Rays>
 void PathWalk<Rays>::light(PathState& path, const Bsdf& bsdf, Vec3f wo, Shadows& shadows) const {
-  const float select = path.random.next1D();
-  const Vec2f place = path.random.next2D();
   sampleDirectLight(emitters_, path.from, bsdf, wo, LobeSet::all, LobeSet::all, true,
-                    {select, place.x, place.y}, path.samplesFrom,
-                    [&](int sample, const Ray& ray, Rgb value, uint32_t emitter) {
+                    path.lightNumbers, path.samplesFrom,
+                    [&](int sample, const EmitterDirection& light, Rgb value) {
                       ++path.shadowRays;
-                      shadows.push_back({ray, &path, sample, path.chain != Rgb{},
-                                         path.chain * value, path.indirect * value, emitter});
+                      PathShadow& shadow = shadows.emplace_back();  // filled where it stays
+                      shadow.ray = shadowRay(path.from, light);
+                      shadow.path = &path;
+                      shadow.sample = sample;
+                      shadow.seen = path.chain != Rgb{};
+                      shadow.direct = path.chain * value, shadow.indirect = path.indirect * value;
+                      shadow.emitter = light.emitter;
                     });
 }
 

@@ -48,7 +48,7 @@ struct PathCounts {
 
 struct PathResult {
   Rgb direct{}, indirect{};
-  Rgb albedo{};  // of the first surface; zero where there is none
+  Rgb albedo{};  // of the first surface, if wanted; zero where there is none
   Vec3f normal{};
   float depth = 0;
 };
@@ -65,6 +65,7 @@ struct PathState {
   uint32_t shadowRays = 0;
   Rgb chain{1.f}, indirect{};         // throughput up to the ray's start
   Rgb metDirect{1.f}, metIndirect{};  // factor of emission that the ray meets
+  Vec3f lightNumbers;                 // that choose the light at the vertex that the ray will find
   LightQuery from;                    // where the ray starts, and how it was drawn
   float pdfFrom = 0, eta = 1;
   int samplesFrom = 1;
@@ -92,8 +93,10 @@ struct PathShadow {
 template <class Rays>
 class PathWalk {
  public:
-  PathWalk(const Rays& tracer, const EmitterSampler& emitters, const PathSettings& settings)
-      : tracer_(tracer), emitters_(emitters), settings_(settings) {}
+  // described: are PathResult's albedo, normal and depth wanted?
+  PathWalk(const Rays& tracer, const EmitterSampler& emitters, const PathSettings& settings,
+           bool described)
+      : tracer_(tracer), emitters_(emitters), settings_(settings), described_(described) {}
   // Follows the paths to their ends, side by side: while some wait for the memory of the triangle
   // that they hit, others are traced and shaded. First rays, and shadow rays of points that the eye
   // sees directly or by sharp lobes, go in packets. Embree's answers may depend, in their last
@@ -108,18 +111,24 @@ class PathWalk {
   void traceSome(std::span<PathState> paths, Shadows& shadows, PathCounts& counts) const;
   void intersectFirst(std::span<PathState> paths) const;
   void prefetch(const Hit& hit) const;
+  void chooseLights(std::span<PathState* const> paths) const;
+  int directSamples(const PathState& path) const {
+    return path.chain != Rgb{} ? std::max(settings_.directSamples, 1) : 1;
+  }
   bool advance(PathState& path, Shadows& shadows) const;  // false: the path has ended
   void light(PathState& path, const Bsdf& bsdf, Vec3f wo, Shadows& shadows) const;
   void traceShadows(const Shadows& shadows, PathCounts& counts) const;
   void lit(const PathShadow& shadow) const;
   void tracePixel(std::span<const PathShadow* const> shadows) const;
   void tracePacket(std::span<const PathShadow* const> shadows) const;
+  void escape(PathState& path) const;
   void meet(PathState& path, Rgb radiance, const SurfacePoint* hit) const;
   void finish(PathState& path, PathCounts& counts) const;
 
   const Rays& tracer_;
   const EmitterSampler& emitters_;
   const PathSettings& settings_;
+  const bool described_;
 };
 
 }  // namespace lobelia

@@ -25,10 +25,4 @@ Vec3f SphericalImage::fromSquare(Vec2f s) const {
   return {std::sin(phi) * sine, std::cos(theta), -std::cos(phi) * sine};
 }
 
-Rgb SphericalImage::at(const Cell& c) const {
-  const Rgb top = lerp(texel(c.x0, c.y0), texel(c.x1, c.y0), c.fx);
-  const Rgb bottom = lerp(texel(c.x0, c.y1), texel(c.x1, c.y1), c.fx);
-  return lerp(top, bottom, c.fy);
-}
-
 }  // namespace lobelia

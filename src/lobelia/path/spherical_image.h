@@ -13,6 +13,7 @@
 
 #include <algorithm>
 
+#include "lobelia/base/prefetch.h"
 #include "lobelia/scene/texture.h"
 
 namespace lobelia {
@@ -31,20 +32,35 @@ class SphericalImage {
   int width() const { return image_->width; }
   int rows() const { return rows_; }  // of cells, from pole to pole
   Rgb texel(int x, int y) const {     // y from 0 to rows()
-    const size_t row = static_cast<size_t>(std::min(y, image_->height - 1));
-    const size_t channels = static_cast<size_t>(image_->channels);
-    const float* v = image_->pixels.data() +
-                     (row * static_cast<size_t>(image_->width) + static_cast<size_t>(x)) * channels;
-    return channels < 3 ? Rgb(v[0]) : Rgb(v[0], v[1], v[2]);
+    const float* v = address(x, y);
+    return image_->channels < 3 ? Rgb(v[0]) : Rgb(v[0], v[1], v[2]);
   }
   // The unit square: u moved by half a texel, so that cells have texels as corners, and v.
   Cell cellAt(Vec2f s) const;
   Vec2f toSquare(Vec3f unit) const;
   Vec3f fromSquare(Vec2f s) const;
   Rgb at(Vec3f unit) const { return at(cellAt(toSquare(unit))); }
-  Rgb at(const Cell& cell) const;
+  Rgb at(const Cell& cell) const { return between(texels(cell), cell); }
+  struct Texels {  // at a cell's corners
+    Rgb c00, c10, c01, c11;
+  };
+  Texels texels(const Cell& c) const {
+    return {texel(c.x0, c.y0), texel(c.x1, c.y0), texel(c.x0, c.y1), texel(c.x1, c.y1)};
+  }
+  static Rgb between(const Texels& t, const Cell& c) {
+    return lerp(lerp(t.c00, t.c10, c.fx), lerp(t.c01, t.c11, c.fx), c.fy);
+  }
+  void prefetch(int x, int y) const {  // the cell at x, y, but for the last one of a row
+    touch(address(x, y)), touch(address(x, y + 1));
+  }
 
  private:
+  const float* address(int x, int y) const {
+    const size_t row = static_cast<size_t>(std::min(y, image_->height - 1));
+    const size_t channels = static_cast<size_t>(image_->channels);
+    return image_->pixels.data() +
+           (row * static_cast<size_t>(image_->width) + static_cast<size_t>(x)) * channels;
+  }
   const Image* image_ = nullptr;
   int rows_ = 0;
 };

@@ -26,7 +26,7 @@ struct Walk {
 
   // Where in the tree: what the wrappers so far have made of a material.
   struct Place {
-    ShadingFrame frame;
+    const ShadingFrame* frame;
     float weight = 1;
     bool twoSided = false;
     int depth = 0;
@@ -97,14 +97,15 @@ void Walk::addBlend(const Material& material, const Place& place) {
 }
 
 void Walk::addLeaf(const Material& material, const Place& place) {
-  const uint8_t frame = bsdf.addFrame(place.frame);
+  const uint8_t frame = bsdf.addFrame(*place.frame);
   const float cosThetaO = dot(wo, bsdf.frames[frame].n);
   Builder b{scene, material, at.texture, frame, cosThetaO, place.weight, place.twoSided, bsdf};
   const bool coated = material.clearcoat.texture.valid() || material.clearcoat.value > 0;
   const bool ownNormal = material.clearcoatNormal.valid();
-  ShadingFrame coat = at.frame;
+  ShadingFrame coat;
   if (material.type == MaterialType::metallicRoughness && coated &&
-      (ownNormal || place.frame.perturbed)) {
+      (ownNormal || place.frame->perturbed)) {
+    coat = at.frame;
     // Normals that show nothing of the surface are not meant.
     if (ownNormal &&
         !perturb(mappedNormal(scene, material.clearcoatNormal, at), place.twoSided, &coat))
@@ -121,7 +122,7 @@ void Walk::add(MaterialHandle handle, const Place& place) {
   Place next = place.inside();
   switch (material.type) {
     case MaterialType::twoSided: {
-      const bool behind = dot(wo, place.frame.n) < 0 && material.b.valid();
+      const bool behind = dot(wo, place.frame->n) < 0 && material.b.valid();
       next.twoSided = true;
       return add(behind ? material.b : material.a, next);
     }
@@ -130,11 +131,14 @@ void Walk::add(MaterialHandle handle, const Place& place) {
     case MaterialType::blend:
       return addBlend(material, place);
     case MaterialType::bump:
-    case MaterialType::normalMap:
-      if (material.map.valid() && !place.frame.perturbed &&
-          !perturb(perturbedNormal(scene, material, at), place.twoSided, &next.frame))
+    case MaterialType::normalMap: {
+      ShadingFrame turned = *place.frame;
+      if (material.map.valid() && !turned.perturbed &&
+          !perturb(perturbedNormal(scene, material, at), place.twoSided, &turned))
         return;
+      next.frame = &turned;
       return add(material.a, next);
+    }
     default:
       return addLeaf(material, place);
   }
@@ -148,7 +152,8 @@ Bsdf makeBsdf(const Scene& scene, const SurfacePoint& at, Vec3f wo, float specul
   bsdf.frameCount = 0;
   bsdf.ng = at.ng;
   bsdf.baseNormal = at.frame.n;
-  Walk{scene, at, wo, bsdf}.add(at.material, {at.frame});
+  const ShadingFrame surface = at.frame;
+  Walk{scene, at, wo, bsdf}.add(at.material, {&surface});
   bsdf.frameCount = std::max(bsdf.frameCount, 1);
   classify(bsdf, specularLimit);
   return bsdf;

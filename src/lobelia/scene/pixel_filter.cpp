@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kCells = 1024;
 constexpr int kMaxLobes = 16;
+constexpr size_t kStarts = 256;  // of searches
 
 double gaussian(double x) {  // x in units of the radius, which is 4 standard deviations
   const double z = 4 * x;
@@ -62,9 +63,10 @@ double shape(PixelFilter filter, double x, int lobes) {
 }
 
 struct Table {
-  std::vector<float> cumulative;  // kCells + 1 values, 0 to 1
-  std::vector<bool> negative;     // by cell
-  float weight = 1;               // integral of |f| over integral of f
+  std::vector<float> cumulative;              // kCells + 1 values, 0 to 1
+  std::vector<bool> negative;                 // by cell
+  std::array<uint16_t, kStarts + 1> start{};  // by value / kStarts: the cell that it is in
+  float weight = 1;                           // integral of |f| over integral of f
 };
 
 Table makeTable(PixelFilter filter, int lobes) {
@@ -82,6 +84,12 @@ Table makeTable(PixelFilter filter, int lobes) {
   }
   for (double s : sums) table.cumulative.push_back(static_cast<float>(s / sums.back()));
   table.weight = static_cast<float>(sums.back() / integral);
+  size_t cell = 0;
+  for (size_t s = 0; s <= kStarts; ++s) {
+    const float value = static_cast<float>(s) / kStarts;
+    while (cell + 1 < kCells && table.cumulative[cell + 1] <= value) ++cell;
+    table.start[s] = static_cast<uint16_t>(cell);
+  }
   return table;
 }
 
@@ -106,8 +114,8 @@ float sampleTable(const Table& table, float u, float* weight) {
   const bool left = u < 0.5f;
   const float v = std::min(left ? 1 - 2 * u : 2 * u - 1, 0x1.fffffep-1f);
   const auto& c = table.cumulative;
-  const auto next = std::upper_bound(c.begin() + 1, c.end() - 1, v);
-  const auto cell = static_cast<size_t>(next - c.begin()) - 1;
+  size_t cell = table.start[static_cast<size_t>(v * kStarts)];
+  while (cell + 1 < kCells && c[cell + 1] <= v) ++cell;
   const float width = c[cell + 1] - c[cell];
   const float inside = width > 0 ? std::clamp((v - c[cell]) / width, 0.f, 1.f) : 0.5f;
   const float x = (static_cast<float>(cell) + inside) / kCells;

@@ -1,6 +1,8 @@
 // From a hit to what shading needs: position, normals, uv, frame, and the Bsdf value.
 #pragma once
 
+#include <cmath>
+
 #include "lobelia/bsdf/lobe.h"
 #include "lobelia/scene/scene.h"
 
@@ -19,7 +21,6 @@ struct SurfacePoint {
   Vec3f ng;          // unit, outside (orientation of the mesh after flipNormals)
   Frame frame;       // shading frame: n interpolated, s along dp/du
   Vec3f dpdu, dpdv;
-  Vec3f dndu, dndv;  // derivatives of the shading normal (bump maps)
   Vec2f uv;
   float t = 0;
   uint32_t instance = 0;
@@ -43,7 +44,11 @@ bool hasOpacity(const Scene& scene, MaterialHandle material);  // is it ever bel
 
 // Origin moved off the surface to the side of `direction`, far enough not to hit it again and no
 // farther (about 1e-6 of the coordinates' size; at.error).
-Vec3f offsetOrigin(const SurfacePoint& at, Vec3f direction);
-Vec3f offsetOrigin(Vec3f p, Vec3f ng, float error, Vec3f direction);
+inline Vec3f offsetOrigin(Vec3f p, Vec3f ng, float error, Vec3f direction) {
+  return p + ng * std::copysign(error, dot(ng, direction));
+}
+inline Vec3f offsetOrigin(const SurfacePoint& at, Vec3f direction) {
+  return offsetOrigin(at.p, at.ng, at.error, direction);
+}
 
 }  // namespace lobelia

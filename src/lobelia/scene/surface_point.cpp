@@ -7,8 +7,7 @@
 //  - a mirroring transform keeps inside and outside (there the winding would turn them over);
 //  - where a mesh has vertex normals, the geometric normal is put on their side (of the triangle's
 //    mean, so that it does not change within a triangle): the winding of such files is often
-//    random;
-//  - dn/du, dn/dv are by uv (Mitsuba 3: by barycentrics).
+//    random.
 #include <cmath>
 
 #include "lobelia/scene/shading.h"
@@ -22,6 +21,7 @@ struct Triangle {
   Vec3f p[3];
   Vec3f e1, e2;  // p1 - p0, p2 - p0
   Vec3f cross;   // e1 x e2
+  float area2;   // its length
 };
 
 Vec3f abs(Vec3f v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
@@ -70,11 +70,10 @@ float positionError(const Triangle& tri, Vec3f ng, Vec3f p, const Transform* tra
   const Vec3f extent = max(a, b);
   const Vec3f cross{a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x};
   const float size = maxComponent(extent);
-  const float area = length(tri.cross);
   // Of slivers the plane is not known at all; nobody should leave them by more than kLargest.
-  const float plane =
-      area > 0 ? std::min(kPlane * dot(cross, extent) / area, kLargest * size / kUnitRoundoff)
-               : 0.f;
+  const float plane = tri.area2 > 0 ? std::min(kPlane * dot(cross, extent) / tri.area2,
+                                               kLargest * size / kUnitRoundoff)
+                                    : 0.f;
   float sum = kPosition * dot(n, reach) + plane + kSize * size;
   if (transform) sum += kInstance * dot(n, instanceRounding(*transform, p));
   return sum * kUnitRoundoff;
@@ -88,6 +87,13 @@ Vec3f interpolate(const Triangle& tri, float b1, float b2) {
     p[i] = static_cast<float>(p0 + b1 * (tri.p[1][i] - p0) + b2 * (tri.p[2][i] - p0));
   }
   return p;
+}
+
+Vec3f geometricNormal(const Triangle& tri) {
+  if (tri.area2 > 1e-15f && tri.area2 < 1e15f) return tri.cross / tri.area2;
+  // Scaled first: squares of tiny triangles underflow.
+  const float largest = maxComponent(abs(tri.cross));
+  return largest > 0 ? normalize(tri.cross / largest) : Vec3f{0, 0, 1};
 }
 
 }  // namespace
@@ -106,74 +112,57 @@ SurfacePoint surfacePoint(const Scene& scene, const Hit& hit) {
   }
   tri.e1 = tri.p[1] - tri.p[0], tri.e2 = tri.p[2] - tri.p[0];
   tri.cross = cross(tri.e1, tri.e2);
+  tri.area2 = length(tri.cross);
 
-  SurfacePoint at;
-  at.t = hit.t;
-  at.instance = hit.instance;
-  at.material = instance.material;
-  at.emitter = instance.emitter;
-  at.p = interpolate(tri, b1, b2);
-
-  // Scaled first: squares of tiny triangles underflow.
-  const float largest = maxComponent(abs(tri.cross));
-  at.ng = largest > 0 ? normalize(tri.cross / largest) : Vec3f{0, 0, 1};
-  if (transform && transform->to.determinant3() < 0) at.ng = -at.ng;
-  Vec3f n[3];
+  Vec3f ng = geometricNormal(tri);
+  if (transform && transform->to.determinant3() < 0) ng = -ng;
   const bool smooth = !mesh.normals.empty();
-  Vec3f ns = at.ng;
-  float inverseLength = 0;
+  Vec3f ns = ng;
   if (smooth) {
+    Vec3f n[3];
     for (int i = 0; i < 3; ++i) {
       n[i] = mesh.normals[v[i]];
       if (transform) n[i] = normalize(transformNormal(*transform, n[i]));
     }
-    if (dot(at.ng, n[0] + n[1] + n[2]) < 0) at.ng = -at.ng;
-    ns = at.ng;
+    if (dot(ng, n[0] + n[1] + n[2]) < 0) ng = -ng;
+    ns = ng;
     const Vec3f sum = n[0] * b0 + n[1] * b1 + n[2] * b2;
     const float len = length(sum);
-    if (len > 1e-6f && std::isfinite(len)) inverseLength = 1 / len, ns = sum * inverseLength;
+    if (len > 1e-6f && std::isfinite(len)) ns = sum / len;
   }
 
-  at.uv = {b1, b2};
-  const Frame around = frameFromNormal(at.ng);
-  at.dpdu = around.s, at.dpdv = around.t;
-  Vec2f duv1{1, 0}, duv2{0, 1};
+  Vec2f uv{b1, b2};
+  const Frame around = frameFromNormal(ng);
+  Vec3f dpdu = around.s, dpdv = around.t;
+  bool ownTangents = false;
   if (!mesh.uvs.empty()) {
     const Vec2f uv0 = mesh.uvs[v.x], uv1 = mesh.uvs[v.y], uv2 = mesh.uvs[v.z];
-    at.uv = uv0 * b0 + uv1 * b1 + uv2 * b2;
-    duv1 = uv1 - uv0, duv2 = uv2 - uv0;
-  }
-  const float det = duv1.x * duv2.y - duv1.y * duv2.x;
-  const float inverseDet = det != 0 ? 1 / det : 0.f;
-  if (inverseDet != 0 && std::isfinite(inverseDet)) {
-    if (!mesh.uvs.empty()) {
-      at.dpdu = (tri.e1 * duv2.y - tri.e2 * duv1.y) * inverseDet;
-      at.dpdv = (tri.e2 * duv1.x - tri.e1 * duv2.x) * inverseDet;
-    }
-    if (inverseLength > 0) {
-      // d(f/|f|) = (df - n (n.df)) / |f|
-      Vec3f dn1 = (n[1] - n[0]) * inverseLength, dn2 = (n[2] - n[0]) * inverseLength;
-      dn1 -= ns * dot(ns, dn1), dn2 -= ns * dot(ns, dn2);
-      at.dndu = (dn1 * duv2.y - dn2 * duv1.y) * inverseDet;
-      at.dndv = (dn2 * duv1.x - dn1 * duv2.x) * inverseDet;
+    uv = uv0 * b0 + uv1 * b1 + uv2 * b2;
+    const Vec2f duv1 = uv1 - uv0, duv2 = uv2 - uv0;
+    const float det = duv1.x * duv2.y - duv1.y * duv2.x;
+    const float inverseDet = det != 0 ? 1 / det : 0.f;
+    if (inverseDet != 0 && std::isfinite(inverseDet)) {
+      ownTangents = true;
+      dpdu = (tri.e1 * duv2.y - tri.e2 * duv1.y) * inverseDet;
+      dpdv = (tri.e2 * duv1.x - tri.e1 * duv2.x) * inverseDet;
     }
   }
-  if (instance.flipNormals) {
-    at.ng = -at.ng, ns = -ns;
-    at.dndu = -at.dndu, at.dndv = -at.dndv;
-  }
-  at.frame = frameFromNormalTangent(ns, at.dpdu);
-  at.texture = {at.uv, &mesh, hit.triangle, {b1, b2}};
-  at.error = positionError(tri, at.ng, at.p, transform);
-  return at;
-}
-
-Vec3f offsetOrigin(Vec3f p, Vec3f ng, float error, Vec3f direction) {
-  return p + ng * std::copysign(error, dot(ng, direction));
-}
-
-Vec3f offsetOrigin(const SurfacePoint& at, Vec3f direction) {
-  return offsetOrigin(at.p, at.ng, at.error, direction);
+  if (instance.flipNormals) ng = -ng, ns = -ns;
+  const bool plain = !smooth && !ownTangents && !instance.flipNormals;  // the frame is there
+  const Vec3f p = interpolate(tri, b1, b2);
+  // All at once: filling a zeroed record would write most of it twice.
+  return {.p = p,
+          .ng = ng,
+          .frame = plain ? around : frameFromNormalTangent(ns, dpdu),
+          .dpdu = dpdu,
+          .dpdv = dpdv,
+          .uv = uv,
+          .t = hit.t,
+          .instance = hit.instance,
+          .material = instance.material,
+          .emitter = instance.emitter,
+          .texture = {uv, &mesh, hit.triangle, {b1, b2}},
+          .error = positionError(tri, ng, p, transform)};
 }
 
 }  // namespace lobelia
