@@ -28,6 +28,22 @@ VslMethod unclamped(const std::string& model, const std::string& label) {
   return {model + "-unclamped", label, change, "off"};
 }
 
+// Kollig and Keller's: what the clamp takes is path-traced.
+VslMethod compensated() {
+  const auto change = [](RenderOptions& options) {
+    options.lights = "vpl";
+    options.compensate = true;
+  };
+  return {"vpl-compensated", "VPL, compensated by path tracing", change, ""};
+}
+VslMethod photons() {
+  const auto change = [](RenderOptions& options) {
+    options.lights = "photon";
+    options.gather = "all";
+  };
+  return {"photon", "photon map, final gathering", change, ""};
+}
+
 std::string countsNote(const VslScene& scene, const BenchScene& bench) {
   const VslSettings& s = scene.settings();
   return fmt::format(
@@ -197,7 +213,7 @@ void vslMethodFigures(VslScene& scene, VslReport& report, Context& context) {
     figures.sideBySide(
         2, "other remedies",
         {unclamped("vpl", "VPL, no clamp"), unclamped("glossy", "glossy VPL, no clamp"),
-         scene.clamped("glossy", "glossy VPL, best clamp")});
+         scene.clamped("glossy", "glossy VPL, best clamp"), compensated(), photons()});
   }
   if (settings.has(6) && !context.cancelled()) figures.wholePictures(three());
   if (settings.has(7) && !context.cancelled()) figures.differences(three());

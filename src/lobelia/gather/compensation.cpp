@@ -62,7 +62,7 @@ class Compensation {
         settings_(settings),
         seed_(hashCombine(seed, kStream)),
         path_(pathSettings(settings)),
-        walk_(tracer, emitters, path_) {}
+        walk_(tracer, emitters, path_, false) {}
 
   Rgb at(const ReceiverPoint& point, uint64_t stream, Rgb* groups,
          ReceiverRayCounts* counts) const {
