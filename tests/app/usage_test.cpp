@@ -127,12 +127,12 @@ TEST(Usage, OptionsWithoutEffectAreSaid) {
   EXPECT_EQ(warnings("--num-lights 16 --exposure 1 -o " + (folder / "a.png")), Names{});
 }
 
-TEST(Usage, FoldersAreWrittenWhereTheirParentIs) {
+TEST(Usage, FoldersAreMadeWithTheirParents) {
   const TemporaryFolder folder;
-  expectFailure("scene cornell --detail 0.1 -o " + (folder / "no/such"), 2, "there is no folder");
   test::writeText(folder / "file", "");
+  expectFailure("scene cornell --detail 0.1 -o " + (folder / "file/under"), 2, "not a folder");
   expectFailure("convert cornell --detail 0.1 -o " + (folder / "file"), 2, "not a folder");
-  for (const char* name : {"one", "two/", "one"})
+  for (const char* name : {"one", "two/", "one", "new/and/deep"})
     EXPECT_EQ(runProgram("convert cornell --detail 0.1 --quiet -o " + (folder / name)).exitCode, 0);
 }
 

@@ -218,14 +218,13 @@ void requireWritable(const std::string& file) {
 void requireWritableFolder(const std::string& folder) {
   namespace fs = std::filesystem;
   std::error_code error;
-  const fs::file_status status = fs::status(folder, error);
-  if (!fs::exists(status)) {  // "a/b/" is b in a
-    const fs::path path(folder);
-    return requireWritable(path.has_filename() ? folder : path.parent_path().string());
-  }
-  if (!fs::is_directory(status))
-    throw UsageError(fmt::format("cannot write into {}: it is not a folder", folder));
-  requireWritable((fs::path(folder) / "scene.xml").string());
+  // What is missing of the path will be made.
+  fs::path there = fs::absolute(folder);
+  while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  if (!fs::is_directory(there, error))
+    throw UsageError(
+        fmt::format("cannot write into {}: {} is not a folder", folder, there.string()));
+  requireWritable((there / "scene.xml").string());
 }
 
 void requireOutputs(const RenderOptions& options) {

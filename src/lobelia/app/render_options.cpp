@@ -33,7 +33,7 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
                "TURBIDITY,X,Y,Z: sun and sky light the scene; the sun in direction X,Y,Z of the "
                "scene, turbidity 2 (very clear) to 10")
       ->type_name("T,X,Y,Z");
-  c.add_option("--time", o.time, "Seconds at which an animated scene (glTF) is taken")
+  c.add_option("--time", o.time, "Seconds at which an animated scene is taken")
       ->type_name("SECONDS")
       ->check(finiteNumber(-HUGE_VAL))
       ->capture_default_str();

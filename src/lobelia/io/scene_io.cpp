@@ -18,8 +18,9 @@ Scene readScene(const std::string& file, const ReadSettings& settings, Context& 
   if (extension == ".gltf" || extension == ".glb") return readGltf(file, settings, context);
   if (!settings.variant.empty())
     throw UsageError("--variant " + settings.variant + ": only glTF files have material variants");
-  if (settings.time != 0) throw UsageError("--time: only glTF files have animations");
   if (extension == ".xml") return readMitsuba(file, settings, context);
+  if (settings.time != 0)
+    throw UsageError("--time: only glTF files and cameras of Mitsuba files have animations");
   if (extension == ".obj" || extension == ".ply") return readBareMesh(file, settings, context);
   const bool isPackedPbrt = extension == ".gz" && file.find(".pbrt.") != std::string::npos;
   if (extension == ".pbrt" || isPackedPbrt) return readPbrt(file, settings, context);
