@@ -61,7 +61,8 @@ TEST(CommandLine, FileSizeLimitsLeaveNothing) {
 // Every second is booked once: stages do not add up to more than the whole.
 TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
   const TemporaryFolder folder;
-  for (const char* method : {"path", "light", "vpl", "glossy", "vpl --compensate", "photon"}) {
+  for (const char* method :
+       {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs", "vpl --compensate", "photon"}) {
     ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
                          " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
                   .exitCode,
@@ -114,7 +115,8 @@ TEST(CommandLine, RenderWritesPicturesAovsStatisticsAndMetadata) {
 
 TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
   const TemporaryFolder folder;
-  for (const char* method : {"path", "light", "glossy", "vpl", "glossy --compensate", "photon"}) {
+  for (const char* method : {"path", "light", "glossy", "vpl", "vsl", "vsl --gather mrcs",
+                             "glossy --compensate", "photon"}) {
     const auto render = [&](int threads, const char* seed) {
       const std::string file = folder / (std::to_string(threads) + seed + ".exr");
       const ProgramResult r =

@@ -59,8 +59,8 @@ class Corner : public testing::Test {
     Rng random(2);
     for (int i = 0; i < 512; ++i) {  // along the wall: not at one light's mercy
       const float x = (random.next1D() - 0.5f) * kSide * 0.5f;
-      const Receivers one =
-          LitFloor::receivers(Vec3f(x, 0, height) - Vec3f(LitFloor::kMiddle), {0, 1, 0}, {0, 1, 0.5f}, bsdf, 1);
+      const Receivers one = LitFloor::receivers(Vec3f(x, 0, height) - Vec3f(LitFloor::kMiddle),
+                                                {0, 1, 0}, {0, 1, 0.5f}, bsdf, 1);
       receivers.points.push_back(one.points[0]);
       receivers.points.back().pixel = static_cast<uint32_t>(i);
       receivers.points.back().error = 1e-6f;
@@ -82,8 +82,8 @@ class Corner : public testing::Test {
     constexpr int kSteps = 64;
     for (int i = 0; i < kSteps; ++i)
       for (int j = 0; j < kSteps; ++j) {
-        const Vec3f w = sampleHemisphereCosine({(static_cast<float>(i) + 0.5f) / kSteps,
-                                                (static_cast<float>(j) + 0.5f) / kSteps});
+        const Vec3f w = sampleHemisphereCosine(
+            {(static_cast<float>(i) + 0.5f) / kSteps, (static_cast<float>(j) + 0.5f) / kSteps});
         const Vec3f d(w.x, w.z, w.y);  // about +y
         if (d.z >= 0) continue;
         const Vec3f q = p + d * (height / -d.z);
@@ -121,7 +121,8 @@ TEST_F(Corner, RadiusIsTheTenthNeighboursDistance) {
     std::nth_element(all.begin(), all.begin() + 10, all.end());  // the first is itself
     EXPECT_NEAR(distances[i], all[10], 1e-5f);
   }
-  for (const float d : distances) mean += static_cast<double>(d) / static_cast<double>(distances.size());
+  for (const float d : distances)
+    mean += static_cast<double>(d) / static_cast<double>(distances.size());
   EXPECT_NEAR(mean, 0.22, 0.03);
 }
 

@@ -1,5 +1,5 @@
-// The integral of a spherical light [Hasan09 eq. 5]: all ways to estimate it agree, for materials of
-// many kinds at both ends, near and far and inside.
+// The integral of a spherical light [Hasan09 eq. 5]: all ways to estimate it agree, for materials
+// of many kinds at both ends, near and far and inside.
 #include "gather/spherical_setup.h"
 
 namespace lobelia {
@@ -130,8 +130,7 @@ TEST(SphericalLight, ProductsOfLobesTameTwoSharpLobes) {
   lobe.type = LobeType::phong;
   lobe.alphaX = 999;
   bsdf.add(lobe);
-  const Receivers receivers =
-      LitFloor::receivers({0, 0, d}, {0, 0, -1}, {0, 0, -1}, bsdf, 1 << 16);
+  const Receivers receivers = LitFloor::receivers({0, 0, d}, {0, 0, -1}, {0, 0, -1}, bsdf, 1 << 16);
   Mean product, three;
   for (const Rgb& value : floor.gather(receivers)) product.add(value);
   gather::LightBlock block;
@@ -155,8 +154,8 @@ TEST(SphericalLight, IsContinuousAtItsRadius) {
       LitFloor floor(diffuseMaterial(Rgb(0.8f)), 1, {0.3f, 0, 1});
       floor.lights().sphereShading = {indicator, SphereShading::Sampling::product, 64};
       const Vec3f direction = normalize(Vec3f(0.5f, 0.3f, 1));
-      const Receivers receivers = LitFloor::receivers(
-          direction * (side == 0 ? 0.999f : 1.001f), -direction, -direction, bsdf, 8192);
+      const Receivers receivers = LitFloor::receivers(direction * (side == 0 ? 0.999f : 1.001f),
+                                                      -direction, -direction, bsdf, 8192);
       for (const Rgb& value : floor.gather(receivers)) means[side].add(value);
     }
     EXPECT_NEAR(means[0].mean(), means[1].mean(),

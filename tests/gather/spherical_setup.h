@@ -79,8 +79,8 @@ class LitFloor {
   // What evaluates the pair of the first receiver in scalar code; refers to the block.
   gather::SpherePair pair(const Receivers& receivers, gather::LightBlock* block) {
     gather::prepare(lights_, scene_, gather::LightClass::spherical, 0, 1, block);
-    return {receivers.points[0], receiverBsdf(receivers, receivers.points[0]),
-            block->lights[0], block->spheres[0], lights_.sphereShading.indicator};
+    return {receivers.points[0], receiverBsdf(receivers, receivers.points[0]), block->lights[0],
+            block->spheres[0], lights_.sphereShading.indicator};
   }
 
   VirtualLights& lights() { return lights_; }

@@ -41,9 +41,18 @@ class LightFile : public ::testing::Test {
       const Vec3f p(random.next1D(), random.next1D(), random.next1D());
       lights.diffuse.push_back({p, p * 2.f, random.nextUint(), i < 600 ? 1u : 3u});
       lights.glossy.push_back({p, {0, 0, 1}, {1, 0, 0}, p, 100 * random.next1D()});
+      SphericalLight sphere{};
+      sphere.p = sphere.power = p;
+      sphere.radius = 0.1f + random.next1D();
+      sphere.arriving = random.nextUint();
+      sphere.triangle = i;
+      sphere.coverage[0] = random.nextUint(), sphere.coverage[1] = random.nextUint();
+      sphere.depth = i < 300 ? 1 : 2;
+      lights.spherical.push_back(sphere);
     }
     lights.diffuseDepthEnds = {0, 600, 600, 1000};
     lights.glossyDepthEnds = {0, 1000};
+    lights.sphericalDepthEnds = {0, 300, 1000};
     return lights;
   }
 
@@ -80,6 +89,8 @@ TEST_F(LightFile, RoundTrip) {
   EXPECT_TRUE(sameBytes(read.directional, lights.directional));
   EXPECT_TRUE(sameBytes(read.diffuse, lights.diffuse));
   EXPECT_TRUE(sameBytes(read.glossy, lights.glossy));
+  EXPECT_TRUE(sameBytes(read.spherical, lights.spherical));
+  EXPECT_EQ(read.sphericalDepthEnds, lights.sphericalDepthEnds);
   EXPECT_EQ(read.diffuseDepthEnds, lights.diffuseDepthEnds);
   EXPECT_EQ(read.glossyDepthEnds, lights.glossyDepthEnds);
 }

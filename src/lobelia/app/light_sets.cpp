@@ -68,9 +68,9 @@ LightParts splitLights(VirtualLights lights) {
   return parts;
 }
 
-// Radius of the lights of pass `set` over the first pass' [Hachisuka and Jensen 2009, eq. 5 as
-// methods of progressive density estimation have it]: r_{k+1}^2 = r_k^2 (k + a) / (k + 1). The mean
-// over the passes converges to the truth.
+// Radius of the lights of pass `set` over the first pass': r_{k+1}^2 = r_k^2 (k + a) / (k + 1)
+// [Knaus11 section 3; Hachisuka09]. The mean over the passes converges to the truth: its bias goes
+// to zero, and its variance, though a pass' grows.
 float progressiveRadiusScale(int set) {
   constexpr double kAlpha = 2.0 / 3;
   double square = 1;

@@ -15,16 +15,16 @@ inline constexpr LightClass kLightClasses[] = {LightClass::omni, LightClass::dir
 
 // One record for all classes; a class reads what it has (VirtualLights).
 struct PreparedLight {
-  Vec3f p;     // directional: unit direction to the light
-  Vec3f end;   // of shadow rays: p moved off its surface; directional: direction
+  Vec3f p;          // directional: unit direction to the light
+  Vec3f end;        // of shadow rays: p moved off its surface; directional: direction
   Vec3f endBehind;  // spherical: p moved off the other side
-  Vec3f n;     // diffuse, glossy; spherical: geometric normal of the lit side
-  Vec3f axis;  // glossy
+  Vec3f n;          // diffuse, glossy; spherical: geometric normal of the lit side
+  Vec3f axis;       // glossy
   float sharpness = 0;
   // Glossy: exp(sharpness (c - 1)) is exactly 0 in float where c |c| is below this; c is the
   // cosine to the axis.
   float cutoff = 0;
-  Rgb intensity;  // spherical: power over area
+  Rgb intensity;          // spherical: power over area
   bool transmits = true;  // spherical: does it light the other side, too?
   static constexpr uint32_t kNoPattern = 0xffffffffu;
   uint32_t pattern = kNoPattern;  // omni: index into LightBlock::patterns
@@ -36,7 +36,7 @@ struct LightBlock {
   size_t first = 0;  // index of lights[0] in its class
   int count = 0;
   PreparedLight lights[kBlockLights];
-  std::vector<EmissionPattern> patterns;  // of the lights that have one, in their order
+  std::vector<EmissionPattern> patterns;    // of the lights that have one, in their order
   const PreparedSphere* spheres = nullptr;  // spherical: parallel to lights
   std::vector<PreparedSphere> ownSpheres;   // unless they are shared
   SphereShading sphereShading;

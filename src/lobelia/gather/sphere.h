@@ -17,8 +17,8 @@ struct PreparedSphere {
   bool whole = true;  // the whole disc lies on the surface: all weights are 1
   std::array<float, kDiscCellCount> weights;  // cellWeights()
 
-  // Rough lobes that act for power from `wi`. A lobe's factor takes the cosine to the shading normal
-  // for the cosine to the geometric one: the radiance that leaves along w is
+  // Rough lobes that act for power from `wi`. A lobe's factor takes the cosine to the shading
+  // normal for the cosine to the geometric one: the radiance that leaves along w is
   //   power / area * sum over lobes of factor * f(w, wi) |cos(wi, n)|.
   struct LightLobe {
     Lobe lobe;
@@ -29,7 +29,8 @@ struct PreparedSphere {
   int lobeCount = 0;
   LightLobe lobes[kMaxLobes];
 
-  // Luminances: of the cosine-like rest (radiance per power and area), and of the largest Gaussians.
+  // Luminances: of the cosine-like rest (radiance per power and area), and of the largest
+  // Gaussians.
   struct Gaussian {
     Vec3f axis;
     float sharpness, amplitude;
@@ -61,8 +62,8 @@ struct SamplingLobes {
 };
 SamplingLobes samplingLobes(const Bsdf& bsdf, Vec3f w);
 
-// Reflection by micro-normals of slopes that are Gaussian or GGX: anisotropic and grazing lobes, which
-// no Gaussian of directions fits, are drawn exactly.
+// Reflection by micro-normals of slopes that are Gaussian or GGX: anisotropic and grazing lobes,
+// which no Gaussian of directions fits, are drawn exactly.
 inline bool drawnByHalfVector(const Lobe& lobe) {
   return lobe.type == LobeType::ward || lobe.type == LobeType::microfacetReflection;
 }

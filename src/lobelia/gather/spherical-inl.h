@@ -1,12 +1,12 @@
 // Light of visible pairs of receiver points and spherical lights [Hasan09 eq. 5]:
-//   power / (area pi-less: of the disc on the surface) * integral over directions l from x of
-//     f(x; wo, l) cos * f(p; -l, wi) * indicator(l),
+//   power / (pi r^2) * integral over directions l from x of f(x; wo, l) cos * f(p; -l, wi) *
+//   indicator,
 // by a few directions per pair, in registers of points for one light.
 //
 // Directions. A base that covers all that counts: points of the disc, far away; the cone around the
 // sphere, nearer than two radii; the hemisphere below the disc's plane, inside of the sphere. Where
-// the cone is wide against the lobes, half of the directions (at most) come from the products of the
-// two ends' Gaussians instead, or from the micro-normals of either end, weighted by the balance
+// the cone is wide against the lobes, half of the directions (at most) come from the products of
+// the two ends' Gaussians instead, or from the micro-normals of either end, weighted by the balance
 // heuristic as one mixture: the density never falls below half of the base's.
 //
 // Deviations from the paper, each a setting: the indicator is whether l meets the disc in the
@@ -38,8 +38,7 @@ HWY_INLINE Vf squaredDistance(V3<Vf> a, V3<Vf> b) {
   return dot(d, d);
 }
 
-// Direction at an angle to an axis and at an azimuth around it [Duff et al. 2017, "Building an
-// Orthonormal Basis, Revisited"].
+// Direction at an angle to an axis and at an azimuth around it [Duff17].
 HWY_INLINE V3<Vf> aroundAxis(V3<Vf> axis, Vf oneMinusCos, Vf cosPhi, Vf sinPhi) {
   const Vf sign = select(axis.z < Vf(0.f), Vf(-1.f), Vf(1.f));
   const Vf a = Vf(-1.f) / (sign + axis.z), b = axis.x * axis.y * a;
@@ -80,8 +79,8 @@ struct HalfVectorLobe {
     const V3<Vf> l{dot(world, s), dot(world, t), dot(world, n)};
     const V3<Vf> h = unitVector(w + l);
     const Vf cosine = dot(w, h);
-    const Vf d = microfacetDensity(distribution, alphaX, alphaY, h) * h.z /
-                 max(Vf(4.f) * cosine, Vf(1e-6f));
+    const Vf d =
+        microfacetDensity(distribution, alphaX, alphaY, h) * h.z / max(Vf(4.f) * cosine, Vf(1e-6f));
     return select((h.z > Vf(0.f)) & (cosine > Vf(0.f)), d, Vf(0.f));
   }
 };
@@ -143,9 +142,9 @@ class SphereView {
       }
       byHalf = byLobe & (choice >= share_ * passed);
       // 1 - cos = -log(1 - u (1 - e^-2k)) / k
-      const Vf t = Vf(0.f) - log(max(Vf(1.f) - u * (Vf(1.f) - exp(Vf(-2.f) * sharpness)),
-                                     Vf(1e-30f))) /
-                                 sharpness;
+      const Vf t =
+          Vf(0.f) -
+          log(max(Vf(1.f) - u * (Vf(1.f) - exp(Vf(-2.f) * sharpness)), Vf(1e-30f))) / sharpness;
       axis = select(byLobe, lobeAxis, axis);
       oneMinusCos = select(byLobe, min(t, Vf(2.f)), oneMinusCos);
     }
@@ -153,8 +152,7 @@ class SphereView {
     if (!all(onDisc)) l = aroundAxis(axis, oneMinusCos, cosPhi, sinPhi);
     if (any(byHalf)) {
       const Mf byLight = byHalf & (choice >= share_ * (Vf(1.f) - lightHalfProbability_));
-      if (sampling_.halfLobe >= 0)
-        l = select(byHalf, receiverHalf_.sample(u, cosPhi, sinPhi), l);
+      if (sampling_.halfLobe >= 0) l = select(byHalf, receiverHalf_.sample(u, cosPhi, sinPhi), l);
       if (sphere_.halfLobe >= 0)
         l = select(byLight, lightHalf_.sample(u, cosPhi, sinPhi) * Vf(-1.f), l);
     }
@@ -261,8 +259,8 @@ class SphereView {
         const g::GaussianStrip& x = tile_.gaussians[strip_.firstGaussian + i];
         const V3<Vf> axis = load(x.axis, lane_);
         const Vf sharpness = Vf::load(x.sharpness + lane_);
-        const Vf weight = weigh(axis, sharpness,
-                                Vf::load(x.amplitude + lane_) * Vf(sphere_.diffuse), Vf(0.f));
+        const Vf weight =
+            weigh(axis, sharpness, Vf::load(x.amplitude + lane_) * Vf(sphere_.diffuse), Vf(0.f));
         halfX ? void(byReceiver = byReceiver + weight) : add(axis, sharpness, weight);
       }
     }
@@ -305,8 +303,7 @@ class SphereView {
     const V3<Vf> hit = l * t - d_;
     const Mf below = cosLeave > Vf(0.f);
     const Mf onPlane = below & ((dot(hit, hit) <= Vf(sphere_.squaredRadius)) | onDisc);
-    const Mf inCone =
-        squaredDistance(l, direction_) <= Vf(2.00002f) * oneMinusCosMax_ + Vf(1e-12f);
+    const Mf inCone = squaredDistance(l, direction_) <= Vf(2.00002f) * oneMinusCosMax_ + Vf(1e-12f);
     Vf density = select(hemisphere_, select(below, Vf(0.5f / kSgPi), Vf(0.f)),
                         select(inCone, Vf(1.f) / solidAngle_, Vf(0.f)));
     if (any(disc_)) {
@@ -432,8 +429,7 @@ class SphereSamples {
   HWY_INLINE Vf bumpFactor(V3<Vf> l) const {
     const Vf c = dot(load(strip_.base, lane_), l), c2 = max(c * c, Vf(1e-20f));
     const Vf alpha2 = Vf::load(strip_.bumpAlpha2 + lane_);
-    const Vf shadow =
-        Vf(2.f) / (Vf(1.f) + sqrt(Vf(1.f) + alpha2 * (Vf(1.f) - c2) / c2));
+    const Vf shadow = Vf(2.f) / (Vf(1.f) + sqrt(Vf(1.f) + alpha2 * (Vf(1.f) - c2) / c2));
     return select(c * dot(load(strip_.n, lane_), l) > Vf(0.f), shadow, Vf(0.f));
   }
 
@@ -448,8 +444,8 @@ class SphereSamples {
 };
 
 // The pairs' values but for the lights' power over area, as r, g, b with a factor of 1.
-void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane,
-                    const g::LightBlock& block, PairScratch* pairs) {
+void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane, const g::LightBlock& block,
+                    PairScratch* pairs) {
   for (size_t i = 0; i < pairs->count; ++i) {
     Vf(1.f).store(pairs->factor[i].v);
     for (float* sum : {pairs->r[i].v, pairs->g[i].v, pairs->b[i].v}) Vf(0.f).store(sum);

@@ -36,9 +36,8 @@ void addSampling(const Receivers& receivers, Tile* tile) {
       sampling.diffuse[lane] = lobes.diffuse;
       sampling.sharpest[lane] = lobes.sharpest;
       for (int i = 0; i < kSphereGaussians; ++i) {
-        const PreparedSphere::Gaussian g = i < lobes.gaussianCount
-                                               ? lobes.gaussians[i]
-                                               : PreparedSphere::Gaussian{point.ng, 1, 0};
+        const PreparedSphere::Gaussian g =
+            i < lobes.gaussianCount ? lobes.gaussians[i] : PreparedSphere::Gaussian{point.ng, 1, 0};
         found[i].axis.set(static_cast<int>(lane), g.axis);
         found[i].sharpness[lane] = g.sharpness;
         found[i].amplitude[lane] = g.amplitude;

@@ -24,8 +24,9 @@ struct LightSettings {
   // Directional lights for environments (--env-lights), with directAsLights only: without it their
   // direct light is sampled at the receivers. 0: as many as give a good image.
   size_t environmentLights = 0;
-  int gaussiansPerLobe = 24;   // of the expansion of a BSDF (bsdf/gaussians.h); 1: the paper's form
-  bool photons = false;  // for makePhotons(), which sets it: particles leave these instead of lights
+  int gaussiansPerLobe = 24;  // of the expansion of a BSDF (bsdf/gaussians.h); 1: the paper's form
+  bool photons =
+      false;  // for makePhotons(), which sets it: particles leave these instead of lights
   bool everyGaussian = false;  // true: all of them become lights; false: one is drawn per vertex
   // Spherical lights: radius over the distance of the tenth neighbour; 0: chosen automatically
   // (spherical_radius.h). radiusScale multiplies either (progressive rendering).
@@ -39,8 +40,8 @@ struct LightSettings {
 VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
                          const LightSettings& settings, Context& context);
 
-// Photons: what particles bring to surfaces with rough lobes, settings.count about. Emitters and what
-// lobes make of it are not theirs. Statistics as makeLights() has them, and "photons".
+// Photons: what particles bring to surfaces with rough lobes, settings.count about. Emitters and
+// what lobes make of it are not theirs. Statistics as makeLights() has them, and "photons".
 std::vector<Photon> makePhotons(const Tracer& tracer, const EmitterSampler& emitters,
                                 const LightSettings& settings, Context& context);
 

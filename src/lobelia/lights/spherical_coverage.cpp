@@ -1,6 +1,6 @@
-// Boundary correction of spherical lights (docs/manual.md): the photon light [Hasan09 eq. 2] spreads
-// its power over pi r^2 whether or not so much surface lies within its sphere, which loses light at
-// edges and in corners; here the power goes to what is there.
+// Boundary correction of spherical lights (docs/manual.md): the photon light [Hasan09 eq. 2]
+// spreads its power over pi r^2 whether or not so much surface lies within its sphere, which loses
+// light at edges and in corners; here the power goes to what is there.
 #include "lobelia/lights/spherical_coverage.h"
 
 #include <algorithm>
@@ -21,9 +21,7 @@ constexpr float kNearlyWhole = 0.95f;
 
 // Middle of a cell, in radii.
 Vec2f cellMiddle(int bit) {
-  const auto at = [](int i) {
-    return (static_cast<float>(i) + 0.5f) * (2.f / kDiscCells) - 1;
-  };
+  const auto at = [](int i) { return (static_cast<float>(i) + 0.5f) * (2.f / kDiscCells) - 1; };
   return {at(bit % kDiscCells), at(bit / kDiscCells)};
 }
 
@@ -57,8 +55,7 @@ std::array<uint8_t, kCellCount> deputies() {
     const auto index = [](float v) {
       return std::clamp(static_cast<int>((v + 1) * (kDiscCells / 2)), 0, kDiscCells - 1);
     };
-    result[static_cast<size_t>(bit)] =
-        static_cast<uint8_t>(index(m.y) * kDiscCells + index(m.x));
+    result[static_cast<size_t>(bit)] = static_cast<uint8_t>(index(m.y) * kDiscCells + index(m.x));
   }
   return result;
 }
@@ -111,7 +108,7 @@ class CoverageTest {
       all |= (bits >> deputies_[static_cast<size_t>(bit)] & 1) << bit;
     // The light's own place is on the surface, whatever rounding says.
     all |= 0x0000001818000000ull;
-    light->walled = blocked > beyond;
+    light->walled = blocked > beyond ? 1 : 0;
     light->coverage[0] = static_cast<uint32_t>(all);
     light->coverage[1] = static_cast<uint32_t>(all >> 32);
     return rays + 1;
@@ -148,8 +145,8 @@ std::array<float, kCellCount> measureShares() {
   return shares;
 }
 
-// The cell on the surface that takes the power of a cell that is not: its mirror image at the boundary
-// by the nearest cell on the surface, or that cell itself.
+// The cell on the surface that takes the power of a cell that is not: its mirror image at the
+// boundary by the nearest cell on the surface, or that cell itself.
 int mirroredCell(const SphericalLight& light, int bit) {
   const int x = bit % kDiscCells, y = bit / kDiscCells;
   int nearest = -1, smallest = 1 << 20;
@@ -168,9 +165,9 @@ int mirroredCell(const SphericalLight& light, int bit) {
   return coversCell(light, mirrored) && insideDisc(mirrored) ? mirrored : nearest;
 }
 
-// A cell counts by its middle. Where the surface ends at a wall, which hides what lies behind it, the
-// next cells count, too: on average over where the wall cuts them, what the last ones lose behind it
-// the next ones have before it.
+// A cell counts by its middle. Where the surface ends at a wall, which hides what lies behind it,
+// the next cells count, too: on average over where the wall cuts them, what the last ones lose
+// behind it the next ones have before it.
 void widenToWalls(const SphericalLight& light, std::array<float, kCellCount>* weights) {
   const std::array<float, kCellCount> before = *weights;
   for (int bit = 0; bit < kCellCount; ++bit) {
@@ -181,8 +178,7 @@ void widenToWalls(const SphericalLight& light, std::array<float, kCellCount>* we
       if (x + dx < 0 || x + dx >= kDiscCells || y + dy < 0 || y + dy >= kDiscCells) continue;
       const int other = bit + dy * kDiscCells + dx;
       float& weight = (*weights)[static_cast<size_t>(bit)];
-      if (coversCell(light, other))
-        weight = std::max(weight, before[static_cast<size_t>(other)]);
+      if (coversCell(light, other)) weight = std::max(weight, before[static_cast<size_t>(other)]);
     }
   }
 }
@@ -197,7 +193,7 @@ std::array<float, kDiscCellCount> cellWeights(const SphericalLight& light) {
         shares[static_cast<size_t>(bit)];
   std::array<float, kCellCount> weights;
   for (size_t i = 0; i < power.size(); ++i) weights[i] = shares[i] > 0 ? power[i] / shares[i] : 0.f;
-  if (light.walled) widenToWalls(light, &weights);
+  if (light.walled != 0) widenToWalls(light, &weights);
   return weights;
 }
 

@@ -1,5 +1,5 @@
-// [Hasan09 section 3.3]: "for each VSL, we search for 10 nearest neighbors, and we set the VSL radius
-// to the resulting search radius multiplied by a user-specified constant".
+// [Hasan09 section 3.3]: "for each VSL, we search for 10 nearest neighbors, and we set the VSL
+// radius to the resulting search radius multiplied by a user-specified constant".
 //
 // Deviations: neighbours count only on similarly oriented surface, so that spheres do not grow over
 // the gap between two walls that both are dense with lights; and without a factor the radius is
@@ -37,13 +37,12 @@ using Tree =
 
 // The lit side's normal, octahedral.
 uint32_t litNormal(const Scene& scene, const SphericalLight& light) {
-  const Vec3f ng =
-      surfacePoint(scene, {0, light.b1, light.b2, light.instance, light.triangle}).ng;
+  const Vec3f ng = surfacePoint(scene, {0, light.b1, light.b2, light.instance, light.triangle}).ng;
   return encodeOctahedral(dot(ng, decodeOctahedral(light.arriving)) < 0 ? -ng : ng);
 }
 
-// nanoflann's result set: the nearest that are oriented alike. After kMostVisited candidates it ends
-// with what it has: a lone leaf among leaves of other directions would search the whole tree.
+// nanoflann's result set: the nearest that are oriented alike. After kMostVisited candidates it
+// ends with what it has: a lone leaf among leaves of other directions would search the whole tree.
 class OrientedNeighbours {
  public:
   OrientedNeighbours(const std::vector<uint32_t>& normals, uint32_t self, float leastCosine)

@@ -42,8 +42,8 @@ struct GlossyLight {
 static_assert(sizeof(GlossyLight) == 52);
 
 // Virtual spherical light [Hasan09 section 3.2]: power that arrived at a surface, spread over what
-// of it lies within `radius`, to be scattered by the surface's own rough lobes. The surface is named
-// by the hit, from which its BSDF is made again (makeBsdf() seen from `arriving`).
+// of it lies within `radius`, to be scattered by the surface's own rough lobes. The surface is
+// named by the hit, from which its BSDF is made again (makeBsdf() seen from `arriving`).
 struct SphericalLight {
   Vec3f p;
   Rgb power;          // W, per particle
@@ -55,7 +55,7 @@ struct SphericalLight {
   uint32_t coverage[2];
   uint16_t group;
   uint8_t depth;
-  bool walled;  // the rest of the disc lies behind other surfaces, rather than beyond an edge
+  uint8_t walled;  // 1: the rest of the disc lies behind other surfaces, rather than beyond an edge
 };
 static_assert(sizeof(SphericalLight) == 60);
 
@@ -84,7 +84,8 @@ struct VirtualLights {
   std::vector<SphericalLight> spherical;
   std::vector<uint32_t> diffuseDepthEnds, glossyDepthEnds, sphericalDepthEnds;
   // Light groups (LightGroups): their names, and the group of every light as an index into them;
-  // parallel to the lights, for diffuse and spherical lights in them. Empty: all lights are of group 0.
+  // parallel to the lights, for diffuse and spherical lights in them. Empty: all lights are of
+  // group 0.
   std::vector<std::string> groups;
   std::vector<uint16_t> omniGroups, directionalGroups, glossyGroups;
   uint64_t sceneHash = 0;
@@ -93,7 +94,7 @@ struct VirtualLights {
   // How they were made (LightSettings): what a renderer that uses them must agree with.
   int maxDepth = -1;
   float specularLimit = 0;
-  bool direct = false;  // emitters themselves are among them
+  bool direct = false;          // emitters themselves are among them
   SphereShading sphereShading;  // not kept in files
   size_t size() const {
     return omni.size() + directional.size() + diffuse.size() + glossy.size() + spherical.size();
