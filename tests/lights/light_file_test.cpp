@@ -114,6 +114,10 @@ TEST_F(LightFile, RefusesOtherSettings) {
   VirtualLights lights = someLights();
   Scene scene;
   scene.emitters.resize(8);
+  scene.meshes.resize(1);
+  scene.meshes[0].triangles.resize(1000);
+  scene.instances.resize(1);
+  scene.instances[0].mesh.index = 0;
   LightSettings settings;
   settings.maxDepth = 6;
   settings.specularLimit = 0.125f;
@@ -127,6 +131,9 @@ TEST_F(LightFile, RefusesOtherSettings) {
     return std::string();
   };
   EXPECT_EQ(refusal(), "");
+  lights.spherical[7].triangle = 1000;
+  EXPECT_NE(refusal().find("triangle 1000 of instance 0"), std::string::npos) << refusal();
+  lights.spherical[7].triangle = 7;
   settings.maxDepth = 3, settings.directAsLights = false;  // a part of them is left out
   EXPECT_EQ(refusal(), "");
   settings.maxDepth = 7;
