@@ -26,12 +26,6 @@ std::vector<uint64_t> streamsOf(const Receivers& receivers, const ReceiverRaySet
   return streams;
 }
 
-void noteBadPixel(uint32_t pixel, Context& context) {
-  const double known = context.statistics.value("first_nonfinite_pixel");  // 0: none
-  if (known == 0 || 1.0 + pixel < known)
-    context.statistics.setValue("first_nonfinite_pixel", 1.0 + pixel);
-}
-
 }  // namespace
 
 void lightReceivers(const Receivers& receivers, const ReceiverRaySettings& settings,
@@ -81,7 +75,7 @@ void lightReceivers(const Receivers& receivers, const ReceiverRaySettings& setti
   context.statistics.addCount("shadow_rays", shadowRays);
   context.statistics.addCount("nonfinite", nonFinite);
   for (size_t i = 0; i < points; ++i)
-    if (bad[i] != 0) noteBadPixel(receivers.points[i].pixel, context);
+    if (bad[i] != 0) noteNonFinitePixel(receivers.points[i].pixel, context);
 }
 
 }  // namespace lobelia

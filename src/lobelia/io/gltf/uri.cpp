@@ -3,15 +3,10 @@
 #include <cctype>
 #include <cstdint>
 
+#include "lobelia/io/hex_digit.h"
+
 namespace lobelia::io::gltf {
 namespace {
-
-int hexDigit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
 
 int base64Digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';

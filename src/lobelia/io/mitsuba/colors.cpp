@@ -1,16 +1,10 @@
 // Colours, spectra and numbers of Mitsuba scenes, each of which may be a texture instead.
 #include "lobelia/film/film.h"
+#include "lobelia/io/hex_digit.h"
 #include "lobelia/io/mitsuba/reader.h"
 
 namespace lobelia::io::mitsuba {
 namespace {
-
-int hexDigit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
 
 // "#rrggbb" to [0,1], as encoded.
 Rgb hexColor(const std::string& text, const Element& element) {
