@@ -48,6 +48,7 @@ TEST(Usage, WrongUsageIsTwo) {
   expectFailure("render cornell --spp 1.5" + out, 2, "'1.5' is not an integer from 1");
   expectFailure("render cornell --max-depth 0x10" + out, 2, "'0x10' is not an integer");
   expectFailure("render cornell --direct ne" + out, 2, "did you mean 'nee'");
+  expectFailure("render cornell --vsl-indicator cosin" + out, 2, "did you mean 'cosine'");
   expectFailure("render cornell --time 1" + out, 2, "--time");
   expectFailure("render cornell --aov albedo -o " + (folder / "a.png"), 2, ".exr");
   for (const char* option : {"--crop", "--stats", "-D"})
@@ -122,6 +123,10 @@ TEST(Usage, OptionsWithoutEffectAreSaid) {
   EXPECT_EQ(warnings("--num-lights 16 --env-lights 9"), Names{"--env-lights"});
   EXPECT_EQ(warnings("--num-lights 16 --env-lights 9 --direct lights"), Names{});
   EXPECT_EQ(warnings("--num-lights 16 --passes 3"), (Names{"--passes"}));
+  EXPECT_EQ(warnings("--num-lights 16 --gather-rays 3 --radius 2"),
+            (Names{"--radius", "--gather-rays"}));
+  EXPECT_EQ(warnings("--lights photon --num-lights 99 --gather all --gather-rays 2"),
+            Names{"--gather"});
   EXPECT_EQ(warnings("--num-lights 16 --exposure 1 --checkpoint-interval 3"),
             (Names{"--checkpoint-interval", "--exposure"}));
   EXPECT_EQ(warnings("--num-lights 16 --exposure 1 -o " + (folder / "a.png")), Names{});

@@ -136,7 +136,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "--gather mrcs: a light that stands for others is scaled as a whole (scalar) or "
                "channel by channel, which is biased")
       ->type_name("HOW")
-      ->check(CLI::IsMember({"scalar", "channel"}))
+      ->check(oneOf({"scalar", "channel"}))
       ->capture_default_str();
   c.add_option("--memory", o.memory,
                "--gather mrcs: memory for what is kept of all lights; units K, M, G")
@@ -160,13 +160,13 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "Which directions to a spherical light count: those that meet its disc on the "
                "surface (planar), or all, with a cosine (cosine, the paper's)")
       ->type_name("HOW")
-      ->check(CLI::IsMember({"planar", "cosine"}))
+      ->check(oneOf({"planar", "cosine"}))
       ->capture_default_str();
   c.add_option("--vsl-sampling", o.sphereSampling,
                "Directions to a spherical light by its disc or cone and by products of lobes "
                "(product), by the cone and both BSDFs (paper; slow), or by the cone alone (cone)")
       ->type_name("HOW")
-      ->check(CLI::IsMember({"product", "paper", "cone"}))
+      ->check(oneOf({"product", "paper", "cone"}))
       ->capture_default_str();
   c.add_option("--vsl-samples", o.sphereSamples,
                "Directions per pair where lobes and light overlap over a whole hemisphere")

@@ -62,6 +62,9 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
   }
   for (const char* name : {"--radius", "--vsl-indicator", "--vsl-sampling", "--vsl-samples"})
     report(name, options.lights != "vsl", "only --lights vsl has spherical lights");
+  for (const char* name : {"--photons-nearest", "--photon-radius", "--gather-rays"})
+    report(name, options.lights != "photon", "only --lights photon has photons");
+  report("--gather", options.lights == "photon", "photons are gathered by rays of the receivers");
   report("--pixels-seed", options.pixels == 0, "all pixels are computed without --pixels");
   report("--checkpoint-interval", options.checkpoint.empty() && options.resume.empty(),
          "neither --checkpoint nor --resume names a file");
