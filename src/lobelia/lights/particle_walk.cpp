@@ -147,7 +147,7 @@ void ParticleWalk::addSpherical(const Hit& hit, const SurfacePoint& at, Vec3f wi
   light.arriving = encodeOctahedral(wi);
   light.instance = hit.instance, light.triangle = hit.triangle;
   light.b1 = hit.b1, light.b2 = hit.b2;
-  light.depth = static_cast<uint8_t>(place.depth), light.group = place.group;
+  light.depth = static_cast<uint16_t>(place.depth), light.group = place.group;
   out->spherical.push_back(light);
 }
 

@@ -73,7 +73,6 @@ class CoverageTest {
     const float r = light->radius;
     const Vec3f origin = light->p + n * (kHeight * r);
     uint64_t bits = 0, rays = 0;
-    int blocked = 0, beyond = 0;
     if (!tracer_.visible(offsetOrigin(at, n), origin)) {
       // In a gap narrower than half the radius: nothing above to look from.
       light->coverage[0] = light->coverage[1] = ~0u;
@@ -92,23 +91,15 @@ class CoverageTest {
       if (!any) continue;
       std::optional<Hit> hits[ShadowPacket::kSize];
       tracer_.intersect(packet, true, hits);
-      for (int lane = 0; lane < ShadowPacket::kSize; ++lane) {
-        if (packet.active[lane] == 0) continue;
-        if (hits[lane] && onSurface(*light, n, *hits[lane])) {
+      for (int lane = 0; lane < ShadowPacket::kSize; ++lane)
+        if (packet.active[lane] != 0 && hits[lane] && onSurface(*light, n, *hits[lane]))
           bits |= uint64_t{1} << (first + lane);
-        } else {
-          const Vec2f m = cellMiddle(first + lane);
-          const float toPlane = r * std::sqrt(kHeight * kHeight + m.x * m.x + m.y * m.y);
-          ++(hits[lane] && hits[lane]->t < toPlane ? blocked : beyond);
-        }
-      }
     }
     uint64_t all = 0;
     for (int bit = 0; bit < kCellCount; ++bit)
       all |= (bits >> deputies_[static_cast<size_t>(bit)] & 1) << bit;
     // The light's own place is on the surface, whatever rounding says.
     all |= 0x0000001818000000ull;
-    light->walled = blocked > beyond ? 1 : 0;
     light->coverage[0] = static_cast<uint32_t>(all);
     light->coverage[1] = static_cast<uint32_t>(all >> 32);
     return rays + 1;
@@ -165,24 +156,6 @@ int mirroredCell(const SphericalLight& light, int bit) {
   return coversCell(light, mirrored) && insideDisc(mirrored) ? mirrored : nearest;
 }
 
-// A cell counts by its middle. Where the surface ends at a wall, which hides what lies behind it,
-// the next cells count, too: on average over where the wall cuts them, what the last ones lose
-// behind it the next ones have before it.
-void widenToWalls(const SphericalLight& light, std::array<float, kCellCount>* weights) {
-  const std::array<float, kCellCount> before = *weights;
-  for (int bit = 0; bit < kCellCount; ++bit) {
-    if (coversCell(light, bit)) continue;
-    const int x = bit % kDiscCells, y = bit / kDiscCells;
-    for (const int side : {0, 1, 2, 3}) {
-      const int dx = side == 0 ? -1 : side == 1 ? 1 : 0, dy = side == 2 ? -1 : side == 3 ? 1 : 0;
-      if (x + dx < 0 || x + dx >= kDiscCells || y + dy < 0 || y + dy >= kDiscCells) continue;
-      const int other = bit + dy * kDiscCells + dx;
-      float& weight = (*weights)[static_cast<size_t>(bit)];
-      if (coversCell(light, other)) weight = std::max(weight, before[static_cast<size_t>(other)]);
-    }
-  }
-}
-
 }  // namespace
 
 std::array<float, kDiscCellCount> cellWeights(const SphericalLight& light) {
@@ -193,7 +166,6 @@ std::array<float, kDiscCellCount> cellWeights(const SphericalLight& light) {
         shares[static_cast<size_t>(bit)];
   std::array<float, kCellCount> weights;
   for (size_t i = 0; i < power.size(); ++i) weights[i] = shares[i] > 0 ? power[i] / shares[i] : 0.f;
-  if (light.walled != 0) widenToWalls(light, &weights);
   return weights;
 }
 

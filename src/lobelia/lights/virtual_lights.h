@@ -54,8 +54,7 @@ struct SphericalLight {
   // Cells of the disc in the tangent plane that lie on the surface (spherical_coverage.h).
   uint32_t coverage[2];
   uint16_t group;
-  uint8_t depth;
-  uint8_t walled;  // 1: the rest of the disc lies behind other surfaces, rather than beyond an edge
+  uint16_t depth;
 };
 static_assert(sizeof(SphericalLight) == 60);
 
