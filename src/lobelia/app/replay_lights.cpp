@@ -15,13 +15,16 @@ namespace {
 constexpr size_t kBrightest = 5;         // lights printed per receiver
 constexpr size_t kMostLights = 1 << 15;  // of a set whose lights are looked at one by one
 
-// The lights of every class one by one: `one` has the same settings and a single light.
+// The lights of every class one by one: `one` has the set's settings and a single light.
 template <class Light, class F>
-void eachLight(const std::vector<Light>& lights, const std::vector<uint32_t>* ends,
-               std::vector<Light> VirtualLights::*array,
-               std::vector<uint32_t> VirtualLights::*arrayEnds, const F& f) {
+void eachLight(const VirtualLights& set, std::vector<Light> VirtualLights::*array,
+               const std::vector<uint32_t>* ends, std::vector<uint32_t> VirtualLights::*arrayEnds,
+               const F& f) {
+  const std::vector<Light>& lights = set.*array;
   for (size_t i = 0; i < lights.size(); ++i) {
     VirtualLights one;
+    one.specularLimit = set.specularLimit;
+    one.sphereShading = set.sphereShading;
     (one.*array).push_back(lights[i]);
     if (ends) {
       for (const uint32_t end : *ends) (one.*arrayEnds).push_back(i < end ? 1 : 0);
@@ -146,6 +149,11 @@ class LightReplay {
     }
   }
 
+  static std::string extent(const std::vector<SphericalLight>& light) {
+    if (light.empty()) return {};
+    return fmt::format(" at {}, radius {:.3g}", place(light[0].p), light[0].radius);
+  }
+
   // Lights alone, each for itself: their sum may differ from the gathered one by rounding.
   void printBrightest(const Receivers& receiver) {
     if (!all_ && parts_.size() > kMostLights) {
@@ -155,26 +163,25 @@ class LightReplay {
     Context own;
     std::vector<Contribution> lights;
     size_t visible = 0;
-    const auto addClass = [&](const char* name, const auto& of, const std::vector<uint32_t>* ends,
-                              auto array, auto arrayEnds) {
-      eachLight(of, ends, array, arrayEnds, [&](size_t i, const VirtualLights& one) {
-        const Rgb value = gather(receiver, one, own)[0];
-        if (value != Rgb{}) lights.push_back({fmt::format("{} {}", name, i), value}), ++visible;
-      });
-    };
     using L = VirtualLights;
-    for (const auto& named :
+    for (const auto& [source, part] :
          {std::pair{"of an emitter", &parts_.direct}, std::pair{"of a bounce", &parts_.indirect}}) {
-      const char* const name = named.first;
-      const VirtualLights* const part = named.second;
-      const auto called = [&](const char* kind) { return fmt::format("{} light {}", kind, name); };
-      addClass(called("omni").c_str(), part->omni, nullptr, &L::omni, &L::diffuseDepthEnds);
-      addClass(called("directional").c_str(), part->directional, nullptr, &L::directional,
-               &L::diffuseDepthEnds);
-      addClass(called("diffuse").c_str(), part->diffuse, &part->diffuseDepthEnds, &L::diffuse,
-               &L::diffuseDepthEnds);
-      addClass(called("glossy").c_str(), part->glossy, &part->glossyDepthEnds, &L::glossy,
-               &L::glossyDepthEnds);
+      const auto addClass = [&, source = source, part = part](
+                                const char* kind, auto array, const std::vector<uint32_t>* ends,
+                                auto arrayEnds) {
+        eachLight(*part, array, ends, arrayEnds, [&](size_t i, const VirtualLights& one) {
+          const Rgb value = gather(receiver, one, own)[0];
+          if (value == Rgb{}) return;
+          ++visible;
+          lights.push_back(
+              {fmt::format("{} light {} {}{}", kind, source, i, extent(one.spherical)), value});
+        });
+      };
+      addClass("omni", &L::omni, nullptr, &L::diffuseDepthEnds);
+      addClass("directional", &L::directional, nullptr, &L::diffuseDepthEnds);
+      addClass("diffuse", &L::diffuse, &part->diffuseDepthEnds, &L::diffuseDepthEnds);
+      addClass("glossy", &L::glossy, &part->glossyDepthEnds, &L::glossyDepthEnds);
+      addClass("spherical", &L::spherical, &part->sphericalDepthEnds, &L::sphericalDepthEnds);
     }
     const size_t count = std::min(kBrightest, lights.size());
     std::partial_sort(lights.begin(), lights.begin() + static_cast<ptrdiff_t>(count), lights.end(),
