@@ -105,6 +105,19 @@ TEST_F(MrcsRender, PartsOfThePictureAndPassesHaveTheLightOfAll) {
   }
 }
 
+TEST_F(MrcsRender, NearFieldOfSphericalLightsTakesTheFlares) {
+  const std::string base = "--lights vsl --size 48x40 --spp 1 --num-lights 4000 --seed 3 ";
+  const Film all = render(base + "--gather all", "all");
+  const std::string few = base + "--gather mrcs --columns 200 --rows 300 ";
+  const Film without = render(few + "--near-field 0", "without");
+  const Film with = render(few, "with"), narrow = render(few + "--near-field 2", "narrow");
+  EXPECT_LT(distance(with, all), 0.6 * distance(without, all));
+  EXPECT_LT(distance(narrow, all), 0.9 * distance(without, all));
+  EXPECT_NEAR(sum(with) / sum(all), 1, 0.05);
+  const Film again = render(few + "--threads 1", "again");
+  for (size_t i = 0; i < with.pixelCount(); ++i) EXPECT_EQ(with.rgb(i), again.rgb(i));
+}
+
 TEST_F(MrcsRender, AllColumnsGiveTheSameBits) {
   const std::string base = "--size 32x24 --spp 2 --num-lights 300 ";
   const Film all = render(base + "--gather all", "all");
@@ -135,6 +148,8 @@ TEST_F(MrcsRender, WrongUseSaysWhatWouldBeRight) {
   expectError("--gather mrcs --rows -3", "--rows");
   expectError("--gather mrcs --error 0", "--error");
   expectError("--gather mrcs --memory lots", "800M or 2G");
+  expectError("--gather all --near-field 2", "--gather mrcs");
+  expectError("--gather mrcs --near-field -1", "--near-field");
   expectError("--gather mrcs --column-scale grey", "--column-scale");
   expectError("--gather mrcs --columns 50 --num-lights 2000 --memory 10K", "--memory");
   expectError("--lights path --gather mrcs --columns 10", "--lights path");

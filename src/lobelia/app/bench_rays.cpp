@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lobelia/base/morton.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
 #include "lobelia/path/path_walk-inl.h"
@@ -11,16 +12,6 @@ namespace {
 
 constexpr size_t kLanes = ShadowPacket::kSize;
 constexpr int kTries = 1000;  // to find points that face each other
-
-uint32_t morton(Vec3f unit) {
-  const auto spread = [](float v) {
-    uint32_t x = static_cast<uint32_t>(std::clamp(v * 1024, 0.f, 1023.f));
-    x = (x | x << 16) & 0x030000ffu, x = (x | x << 8) & 0x0300f00fu;
-    x = (x | x << 4) & 0x030c30c3u;
-    return (x | x << 2) & 0x09249249u;
-  };
-  return spread(unit.x) | spread(unit.y) << 1 | spread(unit.z) << 2;
-}
 
 // Answers as Tracer does and keeps what it was asked.
 struct Recorder {

@@ -113,6 +113,7 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--error", fmt::format("{}", o.error));
     s.emplace_back("--sketch", o.sketch);
     s.emplace_back("--column-scale", o.columnScale);
+    s.emplace_back("--near-field", fmt::format("{}", o.nearField));
     s.emplace_back("--memory", std::to_string(o.memory));
   }
   s.emplace_back("--num-lights", std::to_string(o.lightCount));

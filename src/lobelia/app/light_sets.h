@@ -12,6 +12,9 @@ namespace lobelia::app {
 // layers.
 struct LightParts {
   VirtualLights direct, indirect;
+  // All lights of those that others stand for, for the receivers near them.
+  VirtualLights nearDirect, nearIndirect;
+  // What all receivers gather.
   size_t size() const { return direct.size() + indirect.size(); }
 };
 

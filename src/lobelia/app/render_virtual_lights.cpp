@@ -175,13 +175,15 @@ class VirtualLightRender {
   // Adds all of the run or nothing.
   bool gatherRun(const Receivers& run) {
     std::vector<Rgb> direct(run.points.size()), indirect(run.points.size());
-    auto directParts = layers_->wanted(), indirectParts = layers_->wanted();
-    gather(run, parts_.direct, direct, directParts ? &*directParts : nullptr);
-    if (options_.component != "direct")
-      gather(run, parts_.indirect, indirect, indirectParts ? &*indirectParts : nullptr);
+    const bool both = options_.component != "direct";
+    std::optional<GatherParts> layers[4];
+    layers[0] = gather(run, parts_.direct, direct);
+    layers[1] = gather(run, parts_.nearDirect, direct);
+    if (both) layers[2] = gather(run, parts_.indirect, indirect);
+    if (both) layers[3] = gather(run, parts_.nearIndirect, indirect);
     if (context_.cancelled()) return false;
-    if (directParts) layers_->add(run, *directParts, true);
-    if (indirectParts) layers_->add(run, *indirectParts, false);
+    for (size_t i = 0; i < std::size(layers); ++i)
+      if (layers[i]) layers_->add(run, *layers[i], i < 2);
     for (size_t i = 0; i < run.points.size(); ++i) {
       const ReceiverPoint& point = run.points[i];
       addTo(film_.layers.at(point.primary ? "direct" : "indirect"), point.pixel, direct[i]);
@@ -190,9 +192,12 @@ class VirtualLightRender {
     return true;
   }
 
-  void gather(const Receivers& run, const VirtualLights& lights, std::span<Rgb> radiance,
-              GatherParts* parts) {
-    if (lights.size() > 0) gatherAll(tracer_, run, lights, plan_.gather, radiance, context_, parts);
+  std::optional<GatherParts> gather(const Receivers& run, const VirtualLights& lights,
+                                    std::span<Rgb> radiance) {
+    if (lights.size() == 0) return {};
+    auto parts = layers_->wanted();
+    gatherAll(tracer_, run, lights, plan_.gather, radiance, context_, parts ? &*parts : nullptr);
+    return parts;
   }
 
   StateFields state() {

@@ -121,19 +121,22 @@ class LightReplay {
     }
   }
 
-  std::vector<Rgb> gather(const Receivers& run, const VirtualLights& lights, Context& context) {
-    std::vector<Rgb> out(run.points.size());
-    if (lights.size() > 0) gatherAll(run_.tracer, run, lights, gather_, out, context);
-    return out;
+  void gather(const Receivers& run, const VirtualLights& lights, std::span<Rgb> radiance,
+              Context& context) {
+    if (lights.size() > 0) gatherAll(run_.tracer, run, lights, gather_, radiance, context);
   }
 
   // As the render does, in its order.
   void gatherRun(const Receivers& run, bool shown) {
     const auto mine = [&](const ReceiverPoint& point) { return point.pixel == pixel_; };
     if (std::none_of(run.points.begin(), run.points.end(), mine)) return;
-    const std::vector<Rgb> direct = gather(run, parts_.direct, context_);
-    std::vector<Rgb> indirect(run.points.size());
-    if (options_.component != "direct") indirect = gather(run, parts_.indirect, context_);
+    std::vector<Rgb> direct(run.points.size()), indirect(run.points.size());
+    gather(run, parts_.direct, direct, context_);
+    gather(run, parts_.nearDirect, direct, context_);
+    if (options_.component != "direct") {
+      gather(run, parts_.indirect, indirect, context_);
+      gather(run, parts_.nearIndirect, indirect, context_);
+    }
     for (size_t i = 0; i < run.points.size(); ++i) {
       const ReceiverPoint& point = run.points[i];
       if (!mine(point)) continue;
@@ -162,15 +165,19 @@ class LightReplay {
     }
     Context own;
     std::vector<Contribution> lights;
-    size_t visible = 0;
+    size_t visible = 0, all = 0;
     using L = VirtualLights;
-    for (const auto& [source, part] :
-         {std::pair{"of an emitter", &parts_.direct}, std::pair{"of a bounce", &parts_.indirect}}) {
+    for (const auto& [source, part] : {std::pair{"of an emitter", &parts_.direct},
+                                       std::pair{"of a near emitter", &parts_.nearDirect},
+                                       std::pair{"of a bounce", &parts_.indirect},
+                                       std::pair{"of a near bounce", &parts_.nearIndirect}}) {
+      all += part->size();
       const auto addClass = [&, source = source, part = part](
                                 const char* kind, auto array, const std::vector<uint32_t>* ends,
                                 auto arrayEnds) {
         eachLight(*part, array, ends, arrayEnds, [&](size_t i, const VirtualLights& one) {
-          const Rgb value = gather(receiver, one, own)[0];
+          Rgb value;
+          gather(receiver, one, std::span(&value, 1), own);
           if (value == Rgb{}) return;
           ++visible;
           lights.push_back(
@@ -189,7 +196,7 @@ class LightReplay {
                         return maxComponent(a.value) > maxComponent(b.value);
                       });
     fmt::print(
-        "    {} of {} lights contribute{}\n", visible, parts_.size(),
+        "    {} of {} lights contribute{}\n", visible, all,
         own.statistics.count("nonfinite") > 0
             ? fmt::format("; NOT FINITE: {} pairs, left out", own.statistics.count("nonfinite"))
             : "");

@@ -42,6 +42,7 @@ HWY_INLINE Mf lightFaces(const g::PreparedLight& light, V3<Vf> d) {
     faces = faces & (q * abs(q) > Vf(light.cutoff) * d2);
   }
   if constexpr (kClass == g::LightClass::spherical) {
+    faces = faces & (d2 >= Vf(light.reach.from)) & (d2 < Vf(light.reach.to));
     if (!light.transmits) faces = faces & (dot(broadcast(light.n), d) < Vf(0.f));
   }
   return faces;

@@ -46,7 +46,10 @@ class TileGather {
         settings_(settings),
         parts_(parts),
         context_(context),
-        spheres_(prepareSpheres(lights, tracer.scene())) {}
+        near_(lights, rangeForDepth(lights, LightClass::spherical, settings, 0).begin) {
+    // Of the near field a tile prepares what reaches it.
+    if (!near_.used()) spheres_ = prepareSpheres(lights, tracer.scene());
+  }
 
   // False when cancelled before the end: then nothing was added to radiance.
   bool run(size_t begin, size_t end, std::span<Rgb> radiance, Tally* tally) const {
@@ -79,12 +82,16 @@ class TileGather {
     for (const PointStrip& strip : tile.strips)
       for (const uint8_t depth : strip.depth) smallestDepth = std::min<int>(smallestDepth, depth);
     const LightRange range = rangeForDepth(lights_, lightClass, settings_, smallestDepth);
+    const bool near = near_.used() && lightClass == LightClass::spherical;
+    const std::vector<Bounds3f> bounds = near ? NearField::boundsOf(tile) : std::vector<Bounds3f>();
     LightBlock block;
     PairMasks pairs;
     for (size_t first = range.begin; first < range.end; first += kBlockLights) {
       if (context_.cancelled()) return false;
-      prepare(lights_, tracer_.scene(), lightClass, first,
-              std::min(kBlockLights, range.end - first), &block, spheres_);
+      const size_t count = std::min(kBlockLights, range.end - first);
+      const uint32_t wanted = near ? near_.reaching(bounds, first, count) : ~0u;
+      if (wanted == 0) continue;
+      prepare(lights_, tracer_.scene(), lightClass, first, count, &block, spheres_, wanted);
       allowPairs(tile, block, lights_, settings_, &pairs);
       if (parts != nullptr) parts->watchRays(&pairs);
       const int64_t start = nanosecondsNow();
@@ -122,7 +129,8 @@ class TileGather {
   const GatherSettings& settings_;
   GatherParts* parts_;
   const Context& context_;
-  const std::vector<PreparedSphere> spheres_;
+  const NearField near_;
+  std::vector<PreparedSphere> spheres_;
 };
 
 // Few points in smaller tiles, so that all threads get some. By the points alone: a ray's answer

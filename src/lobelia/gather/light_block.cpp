@@ -62,14 +62,14 @@ void prepareAll(const std::vector<Light>& lights, LightBlock* block) {
 }
 
 void prepareSpheres(const VirtualLights& lights, const Scene& scene,
-                    const std::vector<PreparedSphere>& shared, LightBlock* block) {
+                    const std::vector<PreparedSphere>& shared, uint32_t wanted, LightBlock* block) {
   block->sphereShading = lights.sphereShading;
   if (!shared.empty()) {
     block->spheres = &shared[block->first];
   } else {
     block->ownSpheres.resize(kBlockLights);
     for (size_t i = 0; i < static_cast<size_t>(block->count); ++i)
-      prepareSphere(scene, lights.spherical[block->first + i], lights.specularLimit,
+      if (wanted >> i & 1) prepareSphere(scene, lights.spherical[block->first + i], lights.specularLimit,
                     &block->ownSpheres[i]);
     block->spheres = block->ownSpheres.data();
   }
@@ -79,10 +79,13 @@ void prepareSpheres(const VirtualLights& lights, const Scene& scene,
     PreparedLight& out = block->lights[i];
     out = {};
     out.p = light.p;
+    out.reach.to = 0;
+    if ((wanted >> i & 1) == 0) continue;
     out.n = sphere.disc.n;
     out.end = liftedEnd(light.p, out.n);
     out.endBehind = liftedEnd(light.p, -out.n);
     out.transmits = sphere.transmits;
+    out.reach = reachOf(lights.sphereShading, light.radius);
     out.intensity = light.power / (kPi * sphere.squaredRadius);
   }
 }
@@ -184,7 +187,7 @@ std::vector<PreparedSphere> prepareSpheres(const VirtualLights& lights, const Sc
 }
 
 void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightClass, size_t first,
-             size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared) {
+             size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared, uint32_t wanted) {
   block->patterns.clear();
   block->lightClass = lightClass;
   block->first = first;
@@ -200,7 +203,7 @@ void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightCl
     case LightClass::glossy:
       return prepareAll(lights.glossy, block);
     case LightClass::spherical:
-      return prepareSpheres(lights, scene, shared, block);
+      return prepareSpheres(lights, scene, shared, wanted, block);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "lobelia/gather/near_field.h"
 #include "lobelia/gather/sphere.h"
 #include "lobelia/path/emission_pattern.h"
 
@@ -26,6 +27,7 @@ struct PreparedLight {
   float cutoff = 0;
   Rgb intensity;          // spherical: power over area
   bool transmits = true;  // spherical: does it light the other side, too?
+  SquaredRange reach;     // spherical: of squared distances
   static constexpr uint32_t kNoPattern = 0xffffffffu;
   uint32_t pattern = kNoPattern;  // omni: index into LightBlock::patterns
 };
@@ -54,8 +56,9 @@ size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass);
 // many to keep.
 std::vector<PreparedSphere> prepareSpheres(const VirtualLights& lights, const Scene& scene);
 // The block's patterns keep references to the scene. shared: prepareSpheres(); it must outlive the
-// block.
+// block. wanted: bit per spherical light; the others reach nothing.
 void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightClass, size_t first,
-             size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared = {});
+             size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared = {},
+             uint32_t wanted = ~0u);
 
 }  // namespace lobelia::gather

@@ -8,7 +8,8 @@
 //
 // Deviations: one scale for the three channels (the paper's scale per channel is biased; it can be
 // asked for); lights of weight 0 are not dropped; an even share of probability bounds the scale;
-// columns are kept as sketches; errors are predicted from rows of their own. Each file's head says
+// columns are kept as sketches; errors are predicted from rows of their own; what is near a
+// spherical light may be left out of its column, to be gathered from all lights (near_field.h). Each file's head says
 // more.
 #pragma once
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "lobelia/base/morton.h"
 #include "lobelia/base/random.h"
 
 namespace lobelia::gather {
@@ -17,18 +18,6 @@ PixelSet spreadAmong(const PixelSet& allowed, size_t count, uint64_t seed) {
     set.pixels.push_back(allowed.pixels[begin + hashCombine(seed, i) % (end - begin)]);
   }
   return set;
-}
-
-// Interleaves the bits of x and y.
-uint64_t morton(uint32_t x, uint32_t y) {
-  const auto spread = [](uint64_t v) {
-    v = (v | v << 16) & 0x0000ffff0000ffffull;
-    v = (v | v << 8) & 0x00ff00ff00ff00ffull;
-    v = (v | v << 4) & 0x0f0f0f0f0f0f0f0full;
-    v = (v | v << 2) & 0x3333333333333333ull;
-    return (v | v << 1) & 0x5555555555555555ull;
-  };
-  return spread(x) | spread(y) << 1;
 }
 
 }  // namespace

@@ -70,6 +70,11 @@ struct SphereShading {
   Indicator indicator = Indicator::planar;
   Sampling sampling = Sampling::product;
   int maxSamples = 16;  // of a pair whose lobes overlap with a whole hemisphere
+  // Which receivers a light reaches: all, or those within `nearField` of its radii, or those beyond
+  // (gather/near_field.h).
+  enum class Reach : uint8_t { all, nearField, farField };
+  Reach reach = Reach::all;
+  float nearField = 0;
 };
 
 // Lights of one class are sorted by depth: depthEnds[d] is the number of lights with depth <= d,
