@@ -40,6 +40,7 @@ BenchScene::Change cosineLights(const VslScene& scene) {
     options.lights = "vsl";
     options.radius = factor;
     options.sphereIndicator = "cosine";
+    options.nearField = 0;
   };
 }
 

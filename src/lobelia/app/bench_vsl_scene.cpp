@@ -142,6 +142,7 @@ VslMethod VslScene::asInThePaper() {
     options.radius = factor;
     options.sphereIndicator = "cosine";
     options.sphereSampling = "paper";
+    options.nearField = 0;
   };
   return {"vsl-paper", "VSL as in the paper", change, ""};
 }

@@ -116,6 +116,12 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--near-field", fmt::format("{}", o.nearField));
     s.emplace_back("--memory", std::to_string(o.memory));
   }
+  if (o.lights == "vsl") {
+    s.emplace_back("--radius", fmt::format("{}", o.radius));
+    s.emplace_back("--vsl-indicator", o.sphereIndicator);
+    s.emplace_back("--vsl-sampling", o.sphereSampling);
+    s.emplace_back("--vsl-samples", std::to_string(o.sphereSamples));
+  }
   s.emplace_back("--num-lights", std::to_string(o.lightCount));
   s.emplace_back("--env-lights", std::to_string(o.environmentLights));
   s.emplace_back("--passes", std::to_string(o.passes));

@@ -36,6 +36,14 @@ MrcsSettings settingsFor(const RenderOptions& options, const BandPlan& plan) {
   return settings;
 }
 
+// By default as wide as six radii of the default factor: wider spheres overlap more already.
+float nearFieldRadii(const RenderOptions& options) {
+  constexpr float kDefault = 6, kUsualFactor = 2;
+  if (options.nearField >= 0) return options.nearField;
+  return options.radius > kUsualFactor ? std::max(1.f, kDefault * kUsualFactor / options.radius)
+                                       : kDefault;
+}
+
 // Spherical lights alone: others have no near field.
 VirtualLights nearLights(VirtualLights lights) {
   lights.omni = {}, lights.directional = {}, lights.diffuse = {}, lights.glossy = {};
@@ -97,7 +105,7 @@ void requireReduction(const RenderOptions& options) {
        {std::pair{"--rows", options.rows > 0}, std::pair{"--columns", options.columns > 0},
         std::pair{"--sketch", !options.sketch.empty()},
         std::pair{"--column-scale", options.columnScale != "scalar"},
-        std::pair{"--near-field", options.nearField != kNearFieldRadii},
+        std::pair{"--near-field", options.nearField >= 0},
         std::pair{"--error", options.error > 0}}) {
     if (given)
       throw UsageError(fmt::format("{} is for --gather mrcs; --gather {} has no use for it", name,
@@ -121,17 +129,18 @@ LightParts reduceParts(const Tracer& tracer, const EmitterSampler& emitters, con
                 seed, context);
   ++report->sets;
   VirtualLights* const lights[] = {&parts.direct, &parts.indirect};
+  const float nearField = nearFieldRadii(options);
   VirtualLights* const near[] = {&parts.nearDirect, &parts.nearIndirect};
   for (const int part : {0, 1}) {
     if (part == 1 && options.component == "direct") continue;
     if (context.cancelled() || lights[part]->size() == 0) continue;
     settings.seed = hashCombine(seed, static_cast<uint64_t>(part));
     lights[part]->sphereShading.reach = SphereShading::Reach::farField;
-    lights[part]->sphereShading.nearField = options.nearField;
+    lights[part]->sphereShading.nearField = nearField;
     MrcsReport one;
     VirtualLights few = reduceLights(tracer, rows, *lights[part], settings, &one, context);
     if (context.cancelled()) break;
-    if (one.rows > 0 && options.nearField > 0) *near[part] = nearLights(std::move(*lights[part]));
+    if (one.rows > 0 && nearField > 0) *near[part] = nearLights(std::move(*lights[part]));
     if (one.rows == 0) few.sphereShading.reach = SphereShading::Reach::all;
     *lights[part] = std::move(few);
     report->columns += one.columns;

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "lobelia/lights/spherical_coverage.h"
+#include "lobelia/lights/spherical_radius.h"
+
 namespace lobelia::app {
 namespace {
 
@@ -92,7 +95,7 @@ SphereShading sphereShadingOf(const RenderOptions& options) {
 // Default clamp of `vpl` and of what gets compensated: the geometry term of a light nearer than a
 // twentieth of the scene's radius, the customary cure of its spikes.
 float clampValue(const RenderOptions& options, float sceneRadius) {
-  if (options.clamp == "off") return 0;
+  if (options.clamp == "off" || options.lights == "vsl") return 0;
   if (options.clamp.empty()) {
     return options.lights == "vpl" || options.compensate
                ? kInvPi / sqr(0.05f * std::max(sceneRadius, 1e-6f))
@@ -140,6 +143,11 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
     }
     requireFit(options.loadLights, lights, settings, tracer.scene());
     lights.sphereShading = settings.sphereShading;
+    // Radii and discs are this render's affair.
+    if (!lights.spherical.empty()) {
+      chooseRadii(tracer.scene(), settings, &lights);
+      coverSurfaces(tracer, &lights, context);
+    }
     return lights;
   }
   VirtualLights lights = makeLights(tracer, emitters, settings, context);

@@ -140,10 +140,10 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->capture_default_str();
   c.add_option("--near-field", o.nearField,
                "--gather mrcs: radii of a spherical light within which receivers gather the light "
-               "itself, not what stands for it; 0: none (the paper's)")
+               "itself, not what stands for it; 0: none (the paper's); default: 6, fewer where "
+               "--radius is above 2")
       ->type_name("K")
-      ->check(finiteNumber(0, 1000))
-      ->capture_default_str();
+      ->check(finiteNumber(0, 1000));
   c.add_option("--memory", o.memory,
                "--gather mrcs: memory for what is kept of all lights; units K, M, G")
       ->type_name("BYTES")

@@ -24,8 +24,6 @@ struct SceneOptions {
   std::string meshes;  // built-in scenes: folder of real meshes
 };
 
-inline constexpr float kNearFieldRadii = 6;
-
 struct RenderOptions {
   SceneOptions scene;
   std::vector<std::string> outputs;  // .exr and .png
@@ -44,7 +42,7 @@ struct RenderOptions {
   double error = 0;              // relative error aimed at; 0: the method's default
   std::string sketch;            // numbers kept of each column, "off"; "": the method's default
   std::string columnScale = "scalar";
-  float nearField = kNearFieldRadii;    // of spherical lights, in radii
+  float nearField = -1;                 // of spherical lights, in radii; below 0: the default
   uint64_t memory = uint64_t{2} << 30;  // bytes for columns
   std::string direct = "nee";
   float radius = 0;  // of spherical lights, over the tenth neighbour's distance; 0: automatic

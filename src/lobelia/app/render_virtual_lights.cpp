@@ -80,6 +80,8 @@ class VirtualLightRender {
 
   void useLights(int set) {
     if (set == ready_) return;
+    parts_ = {};  // before as many lights are made again
+    ready_ = -1;
     LightParts parts;
     if (set == 0 && first_) {
       parts = std::move(*first_);

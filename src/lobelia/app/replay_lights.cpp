@@ -15,13 +15,15 @@ namespace {
 constexpr size_t kBrightest = 5;         // lights printed per receiver
 constexpr size_t kMostLights = 1 << 15;  // of a set whose lights are looked at one by one
 
-// The lights of every class one by one: `one` has the set's settings and a single light.
-template <class Light, class F>
+// The lights of every class one by one: `one` has the set's settings and a single light. Only those
+// that `wanted` says.
+template <class Light, class Wanted, class F>
 void eachLight(const VirtualLights& set, std::vector<Light> VirtualLights::*array,
                const std::vector<uint32_t>* ends, std::vector<uint32_t> VirtualLights::*arrayEnds,
-               const F& f) {
+               const Wanted& wanted, const F& f) {
   const std::vector<Light>& lights = set.*array;
   for (size_t i = 0; i < lights.size(); ++i) {
+    if (!wanted(lights[i])) continue;
     VirtualLights one;
     one.specularLimit = set.specularLimit;
     one.sphereShading = set.sphereShading;
@@ -171,11 +173,18 @@ class LightReplay {
                                        std::pair{"of a near emitter", &parts_.nearDirect},
                                        std::pair{"of a bounce", &parts_.indirect},
                                        std::pair{"of a near bounce", &parts_.nearIndirect}}) {
-      all += part->size();
+      const auto reaches = [&, shading = part->sphereShading](const auto& light) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(light)>, SphericalLight>) {
+          const float d2 = lengthSquared(light.p - receiver.points[0].p);
+          return d2 < 1.001f * gather::reachOf(shading, light.radius).to;
+        }
+        return true;
+      };
       const auto addClass = [&, source = source, part = part](
                                 const char* kind, auto array, const std::vector<uint32_t>* ends,
                                 auto arrayEnds) {
-        eachLight(*part, array, ends, arrayEnds, [&](size_t i, const VirtualLights& one) {
+        eachLight(*part, array, ends, arrayEnds, reaches, [&](size_t i, const VirtualLights& one) {
+          ++all;
           Rgb value;
           gather(receiver, one, std::span(&value, 1), own);
           if (value == Rgb{}) return;

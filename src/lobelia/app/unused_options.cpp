@@ -62,6 +62,8 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
   }
   for (const char* name : {"--radius", "--vsl-indicator", "--vsl-sampling", "--vsl-samples"})
     report(name, options.lights != "vsl", "only --lights vsl has spherical lights");
+  report("--clamp", options.lights == "vsl" && options.clamp != "off",
+         "spherical lights have no spikes to clamp");
   for (const char* name : {"--photons-nearest", "--photon-radius", "--gather-rays"})
     report(name, options.lights != "photon", "only --lights photon has photons");
   report("--gather", options.lights == "photon", "photons are gathered by rays of the receivers");

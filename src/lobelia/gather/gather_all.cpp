@@ -13,7 +13,8 @@
 // section 2]); directional lights have no singularity and are never clamped.
 //
 // The sum at a point runs over the lights in their order, in float within a block of 32 and in
-// double over the blocks: it does not depend on threads, nor on how points share tiles.
+// double over the blocks: it does not depend on threads. Nor does it on how points share tiles, but
+// for spherical lights, whose directions are drawn by what the points of a strip have in common.
 #include <algorithm>
 #include <atomic>
 #include <mutex>

@@ -35,13 +35,14 @@ struct MrcsSettings {
 struct MrcsReport {
   uint64_t lights = 0, columns = 0, rows = 0, checkRows = 0;
   uint64_t sketch = 0;  // numbers kept of each column; 0: all, or none as all lights stay
-  // Predicted relative error, sqrt(mean of squared error) / |picture|: in the check rows, and in
+  // Predicted relative error, sqrt(mean of squared error) / |light that is reduced, near fields
+  // apart|: in the check rows, and in
   // the rows that the clusters were made for.
   double error = 0, rowError = 0;
 };
 
 // Few lights that stand for all, of the same classes, depths and groups. All of them when there are
-// no more lights than columns. Throws UsageError when the columns do not fit into the memory. When
+// no more lights than columns and no error limit. Throws UsageError when the columns do not fit into the memory. When
 // cancelled, what it returns is of no use.
 VirtualLights reduceLights(const Tracer& tracer, const gather::Rows& rows,
                            const VirtualLights& lights, const MrcsSettings& settings,

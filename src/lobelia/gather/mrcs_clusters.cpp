@@ -34,10 +34,11 @@ double uniformNumber(uint64_t seed, uint64_t index) {
 }
 
 double Clustering::rowError(const LightColumns& columns) const {
-  return columns.rowNorm > 0 ? std::sqrt(std::max(rowCost, 0.0)) / columns.rowNorm : 0;
+  return columns.rowNorm > 0 ? std::sqrt(std::max(rowCost, 0.0)) / columns.rowNorm : 1;
 }
 double Clustering::checkError(const LightColumns& columns) const {
-  return columns.checkNorm > 0 ? std::sqrt(std::max(checkCost, 0.0)) / columns.checkNorm : 0;
+  if (!(columns.checkNorm > 0)) return rowError(columns);
+  return std::sqrt(std::max(checkCost, 0.0)) / columns.checkNorm;
 }
 
 LightCluster measureCluster(const LightColumns& columns, std::span<const uint32_t> order,

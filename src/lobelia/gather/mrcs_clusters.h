@@ -49,7 +49,8 @@ struct Clustering {
   std::vector<uint32_t> order;  // numbers of lights, cluster after cluster
   std::vector<LightCluster> clusters;
   double cost = 0, rowCost = 0, checkCost = 0;  // sums over the clusters
-  // sqrt(cost in the rows) / |sum of all columns|.
+  // sqrt(cost in the rows) / |sum of all columns|; 1 where no row is lit. Of the check rows: as of
+  // the rows where none of them is lit.
   double rowError(const LightColumns& columns) const;
   double checkError(const LightColumns& columns) const;
 };

@@ -75,20 +75,23 @@ NearField::NearField(const VirtualLights& lights, size_t first)
 }
 
 std::vector<Bounds3f> NearField::boundsOf(const Tile& tile) {
-  std::vector<Bounds3f> bounds(tile.strips.size());
-  for (size_t s = 0; s < tile.strips.size(); ++s)
-    for (int lane = 0; lane < kStrip; ++lane) bounds[s].add(tile.strips[s].p.get(lane));
+  std::vector<Bounds3f> bounds(1 + tile.strips.size());
+  for (size_t s = 0; s < tile.strips.size(); ++s) {
+    for (int lane = 0; lane < kStrip; ++lane) bounds[1 + s].add(tile.strips[s].p.get(lane));
+    bounds[0].add(bounds[1 + s]);
+  }
   return bounds;
 }
 
-uint32_t NearField::reaching(const std::vector<Bounds3f>& strips, size_t first,
+uint32_t NearField::reaching(const std::vector<Bounds3f>& bounds, size_t first,
                              size_t count) const {
   const Bounds3f& block = blocks_[(first - first_) / kBlockLights];
+  if (!meet(bounds[0], block)) return 0;
   uint32_t lights = 0;
-  for (const Bounds3f& strip : strips) {
-    if (!meet(strip, block)) continue;
+  for (size_t s = 1; s < bounds.size(); ++s) {
+    if (!meet(bounds[s], block)) continue;
     for (size_t i = 0; i < count; ++i)
-      if (meet(strip, nearBounds(lights_.spherical[first + i], lights_.sphereShading)))
+      if (meet(bounds[s], nearBounds(lights_.spherical[first + i], lights_.sphereShading)))
         lights |= 1u << i;
   }
   return lights;

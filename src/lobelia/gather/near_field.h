@@ -33,11 +33,11 @@ class NearField {
   explicit NearField(const VirtualLights& lights, size_t first);
   bool used() const { return used_; }
 
-  // Bounds of a tile's strips.
+  // Bounds of a tile, then of its strips.
   static std::vector<Bounds3f> boundsOf(const Tile& tile);
-  // Which of lights [first, first + count) are near a point of the strips, as far as bounds tell:
+  // Which of lights [first, first + count) are near a point of the tile, as far as bounds tell:
   // bit i for light first + i.
-  uint32_t reaching(const std::vector<Bounds3f>& strips, size_t first, size_t count) const;
+  uint32_t reaching(const std::vector<Bounds3f>& bounds, size_t first, size_t count) const;
 
  private:
   const VirtualLights& lights_;

@@ -72,7 +72,10 @@ struct HalfVectorLobe {
     const Vf r2 = distribution == Distribution::ggx ? u / rest : Vf(0.f) - log(rest);
     const Vf r = sqrt(max(r2, Vf(0.f)));
     const V3<Vf> h = unitVector(V3<Vf>{alphaX * r * cosPhi, alphaY * r * sinPhi, Vf(1.f)});
-    const V3<Vf> l = h * (Vf(2.f) * dot(w, h)) - w;
+    const Vf cosine = dot(w, h);
+    V3<Vf> l = h * (Vf(2.f) * cosine) - w;
+    // A micro-normal that w does not see reflects nothing: no direction, which counts for nothing.
+    l = l * select(cosine > Vf(0.f), Vf(1.f), Vf(0.f));
     return s * l.x + t * l.y + n * l.z;
   }
   HWY_INLINE Vf density(V3<Vf> world) const {

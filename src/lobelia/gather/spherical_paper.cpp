@@ -1,6 +1,7 @@
 // [Hasan09 sections 3.1 to 3.3]. Deviations: inside of the sphere the cone opens to
 // acos(-sqrt(1 - (d/r)^2)) about the light and the hemisphere above x clips it, where the paper
-// jumps to that hemisphere at d = r; the planar indicator may be asked for, too.
+// jumps to that hemisphere at d = r; the planar indicator may be asked for, too, for which the cone
+// is the whole sphere there, as it is for the photon light.
 #include "lobelia/gather/spherical_paper.h"
 
 #include <algorithm>
@@ -17,13 +18,18 @@ namespace {
 struct Cone {
   Vec3f axis;
   float oneMinusCos;
-  Cone(Vec3f d, float radius) {
+  // whole: all directions from within the sphere.
+  Cone(Vec3f d, float radius, bool whole) {
     const float d2 = std::max(lengthSquared(d), 1e-30f), r2 = radius * radius;
     axis = d / std::sqrt(d2);
     const float s2 = std::min(r2 / d2, 1.f);
     oneMinusCos = d2 > r2 ? s2 / (1 + std::sqrt(std::max(0.f, 1 - s2)))
+                  : whole ? 2.f
                           : 1 + std::sqrt(std::max(0.f, 1 - d2 / r2));
   }
+  explicit Cone(const SpherePair& pair)
+      : Cone(pair.light.p - pair.point.p, pair.sphere.radius,
+             pair.indicator == SphereShading::Indicator::planar) {}
   float solidAngle() const { return kTwoPi * oneMinusCos; }
   // "proportional to the size of the solid angle, with a maximum of up to 100 samples for 2 pi".
   int sampleCount() const {
@@ -90,7 +96,7 @@ Rgb integrand(const SpherePair& pair, const Cone& cone, Vec3f l) {
 }  // namespace
 
 Rgb integrateBySampling(const SpherePair& pair, const std::array<int, 3>& counts, Rng* random) {
-  const Cone cone(pair.light.p - pair.point.p, pair.sphere.radius);
+  const Cone cone(pair);
   const Bsdf light = lightBsdf(pair.sphere);
   const Vec3f wi = arriving(pair.sphere);
   Rgb sum{};
@@ -124,7 +130,7 @@ Rgb integrateBySampling(const SpherePair& pair, const std::array<int, 3>& counts
 }
 
 Rgb integrateAsPrinted(const SpherePair& pair, Rng* random) {
-  const Cone cone(pair.light.p - pair.point.p, pair.sphere.radius);
+  const Cone cone(pair);
   const int count = cone.sampleCount();
   if (count >= 3) {
     const int third = count / 3;
@@ -157,7 +163,7 @@ Rgb integrateAsPrinted(const SpherePair& pair, Rng* random) {
 }
 
 Rgb integrateByCone(const SpherePair& pair, Rng* random) {
-  const Cone cone(pair.light.p - pair.point.p, pair.sphere.radius);
+  const Cone cone(pair);
   return integrateBySampling(pair, {cone.sampleCount(), 0, 0}, random);
 }
 
@@ -181,7 +187,7 @@ Rgb evaluateAsPrinted(const Tile& tile, size_t stripIndex, size_t lane, const Li
 Rgb photonLight(const Tracer& tracer, const SpherePair& pair, const SphericalLight& light,
                 float specularLimit, int samples, Rng* random) {
   const ReceiverPoint& x = pair.point;
-  const Cone cone(light.p - x.p, light.radius);
+  const Cone cone(light.p - x.p, light.radius, true);
   Rgb sum{};
   for (int k = 0; k < samples; ++k) {
     const Vec3f l = cone.sample(random->next2D());

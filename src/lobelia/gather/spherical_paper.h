@@ -19,8 +19,6 @@ struct SpherePair {
   SphereShading::Indicator indicator;
 };
 
-enum class SphereStrategy : uint8_t { cone = 1, receiver = 2, light = 4 };
-
 // Integral of equation 5 without visibility and without power over area, by `counts[i]` directions
 // of the strategies cone, receiver's BSDF and light's BSDF, combined by the balance heuristic
 // [Veach95]; the cone's density must not be left out where the others do not cover all. A mean over

@@ -12,8 +12,8 @@ namespace lobelia {
 std::vector<float> tenthNeighbourDistances(const Scene& scene,
                                            const std::vector<SphericalLight>& lights);
 
-// Sets the radius of every light from settings.radiusFactor and radiusScale. A factor of 0 chooses
-// the radius by the light's own density and by the sharpness of its surface: see the .cpp.
+// Sets the radius of every light: that distance times settings.radiusFactor (0: kAutomaticFactor of
+// the .cpp) and radiusScale.
 void chooseRadii(const Scene& scene, const LightSettings& settings, VirtualLights* lights);
 
 }  // namespace lobelia
