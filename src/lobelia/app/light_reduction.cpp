@@ -122,12 +122,13 @@ LightParts reduceParts(const Tracer& tracer, const EmitterSampler& emitters, con
                        const BandPlan& plan, int set, LightParts parts,
                        const RenderOptions& options, ReductionReport* report, Context& context) {
   if (!reduces(options)) return parts;
+  ReductionReport sum = *report;  // a set that is cancelled must not count
   MrcsSettings settings = settingsFor(options, plan);
   const uint64_t seed = hashCombine(hashCombine(context.seed, kStream), static_cast<uint64_t>(set));
   const gather::Rows rows =
       traceRows(tracer, emitters, camera, plan, set, options.rows > 0 ? options.rows : kDefaultRows,
                 seed, context);
-  ++report->sets;
+  ++sum.sets;
   VirtualLights* const lights[] = {&parts.direct, &parts.indirect};
   const float nearField = nearFieldRadii(options);
   VirtualLights* const near[] = {&parts.nearDirect, &parts.nearIndirect};
@@ -143,10 +144,10 @@ LightParts reduceParts(const Tracer& tracer, const EmitterSampler& emitters, con
     if (one.rows > 0 && nearField > 0) *near[part] = nearLights(std::move(*lights[part]));
     if (one.rows == 0) few.sphereShading.reach = SphereShading::Reach::all;
     *lights[part] = std::move(few);
-    report->columns += one.columns;
-    report->rows = std::max(report->rows, one.rows);
-    report->sketch = std::max(report->sketch, one.sketch);
-    report->squaredError[part] += one.error * one.error;
+    sum.columns += one.columns;
+    sum.rows = std::max(sum.rows, one.rows);
+    sum.sketch = std::max(sum.sketch, one.sketch);
+    sum.squaredError[part] += one.error * one.error;
     const std::string text = fmt::format(
         "light set {}: {} of {} lights {} stand for all; {} rows; predicted error {:.2f} % "
         "({:.2f} % in the rows)",
@@ -154,6 +155,7 @@ LightParts reduceParts(const Tracer& tracer, const EmitterSampler& emitters, con
         100 * one.error, 100 * one.rowError);
     set == 0 ? context.info(text) : context.debug(text);
   }
+  if (!context.cancelled()) *report = sum;
   return parts;
 }
 
