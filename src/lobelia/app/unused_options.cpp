@@ -60,7 +60,8 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
                       options.passes, samples));
     }
   }
-  for (const char* name : {"--radius", "--vsl-indicator", "--vsl-sampling", "--vsl-samples"})
+  for (const char* name : {"--radius", "--vsl-indicator", "--vsl-sampling", "--vsl-samples",
+                           "--near-field"})
     report(name, options.lights != "vsl", "only --lights vsl has spherical lights");
   report("--clamp", options.lights == "vsl" && options.clamp != "off",
          "spherical lights have no spikes to clamp");
