@@ -80,7 +80,7 @@ class LitFloor {
   gather::SpherePair pair(const Receivers& receivers, gather::LightBlock* block) {
     gather::prepare(lights_, scene_, gather::LightClass::spherical, 0, 1, block);
     return {receivers.points[0], receiverBsdf(receivers, receivers.points[0]), block->lights[0],
-            block->spheres[0], lights_.sphereShading.indicator};
+            *block->spheres[0], lights_.sphereShading.indicator};
   }
 
   VirtualLights& lights() { return lights_; }

@@ -116,6 +116,10 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--near-field", fmt::format("{}", o.nearField));
     s.emplace_back("--memory", std::to_string(o.memory));
   }
+  if (o.gather == "sglc") {
+    s.emplace_back("--sglc-mode", o.cutMode);
+    s.emplace_back("--cut-size", std::to_string(o.cutSize));
+  }
   if (o.lights == "vsl") {
     s.emplace_back("--radius", fmt::format("{}", o.radius));
     s.emplace_back("--vsl-indicator", o.sphereIndicator);

@@ -18,11 +18,11 @@ const std::vector<LightModel>& lightModels() {
       {"photon",
        "photon mapping with final gathering: photons around what receivers' rays meet",
        {}},
-      {"vpl", "diffuse virtual point lights only, clamped by default", {"all", "mrcs"}},
-      {"glossy", "diffuse and spherical-Gaussian lights", {"all", "mrcs"}},
+      {"vpl", "diffuse virtual point lights only, clamped by default", {"all", "mrcs", "sglc"}},
+      {"glossy", "diffuse and spherical-Gaussian lights", {"all", "mrcs", "sglc"}},
       {"vsl",
        "virtual spherical lights: any material at both ends, no spikes, no clamp",
-       {"all", "mrcs"}},
+       {"all", "mrcs", "sglc"}},
   };
   return models;
 }
@@ -32,6 +32,8 @@ const std::vector<GatherStrategy>& gatherStrategies() {
       {"all", "every light at every receiver (brute force, the reference of all strategies)"},
       {"mrcs",
        "matrix row-column sampling: few lights stand for all, chosen by a sample of pixels"},
+      {"sglc",
+       "shared stochastic cuts: neighbouring receivers share lights drawn by a cut of a light tree"},
   };
   return strategies;
 }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lobelia/app/light_layers.h"
-#include "lobelia/app/light_reduction.h"
+#include "lobelia/app/light_gather.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/own_light.h"
@@ -70,6 +70,7 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
   requireLightFiles(options);
   requireLightLayers(options);
   requireReduction(options);
+  requireCuts(options);
   requireOwnLight(options);
   requireFrames(options);
   requireReplay(options);

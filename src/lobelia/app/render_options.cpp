@@ -148,6 +148,15 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "--gather mrcs: memory for what is kept of all lights; units K, M, G")
       ->type_name("BYTES")
       ->transform(byteCount());
+  c.add_option("--sglc-mode", o.cutMode,
+               "--gather sglc: one shadow ray per light answers for a cluster of neighbouring "
+               "receivers (shared, the default), or every receiver traces its own (unbiased)")
+      ->type_name("MODE")
+      ->check(oneOf({"shared", "unbiased"}));
+  c.add_option("--cut-size", o.cutSize,
+               "--gather sglc: lights that a cluster of receivers gathers, at most; default: 1024")
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 24));
   c.add_option("--env-lights", o.environmentLights,
                "With --direct lights: directional lights per environment")
       ->type_name("N")

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "lobelia/app/band_plan.h"
+#include "lobelia/app/light_gather.h"
 #include "lobelia/app/light_layers.h"
 #include "lobelia/app/own_light.h"
 #include "lobelia/app/preview_rows.h"
@@ -80,7 +81,7 @@ class VirtualLightRender {
 
   void useLights(int set) {
     if (set == ready_) return;
-    parts_ = {};  // before as many lights are made again
+    lights_.reset();  // before as many lights are made again
     ready_ = -1;
     LightParts parts;
     if (set == 0 && first_) {
@@ -95,7 +96,8 @@ class VirtualLightRender {
     parts = reduceParts(tracer_, emitters_, camera_, plan_, set, std::move(parts), options_,
                         &report_.reduction, context_);
     if (context_.cancelled()) return;
-    parts_ = std::move(parts);
+    lights_.emplace(tracer_, plan_, set, film_.width, std::move(parts), options_, context_);
+    if (context_.cancelled()) return;
     set_ = ready_ = set;
     markCounts();
   }
@@ -160,7 +162,7 @@ class VirtualLightRender {
   }
 
   bool gatherBand(const Receivers& receivers) {
-    const size_t points = receivers.points.size(), length = runLength(parts_.size());
+    const size_t points = receivers.points.size(), length = lights_->runLength();
     while (at_.point < points) {
       const size_t end = std::min<size_t>(at_.point + length, points);
       const bool whole = at_.point == 0 && end == points;
@@ -176,30 +178,17 @@ class VirtualLightRender {
 
   // Adds all of the run or nothing.
   bool gatherRun(const Receivers& run) {
-    std::vector<Rgb> direct(run.points.size()), indirect(run.points.size());
-    const bool both = options_.component != "direct";
-    std::optional<GatherParts> layers[4];
-    layers[0] = gather(run, parts_.direct, direct);
-    layers[1] = gather(run, parts_.nearDirect, direct);
-    if (both) layers[2] = gather(run, parts_.indirect, indirect);
-    if (both) layers[3] = gather(run, parts_.nearIndirect, indirect);
+    const LightGather::Light light =
+        lights_->gather(run, layers_->wanted(), GatherSettings::kAllPixels, context_);
     if (context_.cancelled()) return false;
-    for (size_t i = 0; i < std::size(layers); ++i)
-      if (layers[i]) layers_->add(run, *layers[i], i < 2);
+    for (size_t i = 0; i < std::size(light.layers); ++i)
+      if (light.layers[i]) layers_->add(run, *light.layers[i], i < 2);
     for (size_t i = 0; i < run.points.size(); ++i) {
       const ReceiverPoint& point = run.points[i];
-      addTo(film_.layers.at(point.primary ? "direct" : "indirect"), point.pixel, direct[i]);
-      addTo(film_.layers.at("indirect"), point.pixel, indirect[i]);
+      addTo(film_.layers.at(point.primary ? "direct" : "indirect"), point.pixel, light.direct[i]);
+      addTo(film_.layers.at("indirect"), point.pixel, light.indirect[i]);
     }
     return true;
-  }
-
-  std::optional<GatherParts> gather(const Receivers& run, const VirtualLights& lights,
-                                    std::span<Rgb> radiance) {
-    if (lights.size() == 0) return {};
-    auto parts = layers_->wanted();
-    gatherAll(tracer_, run, lights, plan_.gather, radiance, context_, parts ? &*parts : nullptr);
-    return parts;
   }
 
   StateFields state() {
@@ -288,9 +277,9 @@ class VirtualLightRender {
   const int64_t start_ = nanosecondsNow();
 
   int set_ = 0;                      // used last
-  int ready_ = -1;                   // whose lights parts_ holds
+  int ready_ = -1;                   // whose lights lights_ holds
   std::optional<LightParts> first_;  // the first set until it is used
-  LightParts parts_;
+  std::optional<LightGather> lights_;
   std::unique_ptr<PhotonMap> photons_;  // --lights photon, in the place of lights
   BandPlan plan_;
   Position at_;

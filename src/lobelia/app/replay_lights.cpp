@@ -4,7 +4,7 @@
 
 #include "lobelia/app/band_plan.h"
 #include "lobelia/app/frame_setup.h"
-#include "lobelia/app/light_reduction.h"
+#include "lobelia/app/light_gather.h"
 #include "lobelia/app/own_light.h"
 #include "lobelia/app/replay_text.h"
 #include "lobelia/app/sampled_film.h"
@@ -79,8 +79,9 @@ class LightReplay {
   void useLights(int set, VirtualLights lights) {
     lightCount_ = lights.size();
     ReductionReport unused;
-    parts_ = reduceParts(run_.tracer, run_.emitters, camera_, plan_, set,
-                         splitLights(std::move(lights)), options_, &unused, context_);
+    LightParts parts = reduceParts(run_.tracer, run_.emitters, camera_, plan_, set,
+                                   splitLights(std::move(lights)), options_, &unused, context_);
+    lights_.emplace(run_.tracer, plan_, set, film_.width, std::move(parts), options_, context_);
     set_ = set;
   }
 
@@ -97,7 +98,7 @@ class LightReplay {
     }
     addOwn(receivers, shown);
     if (photons_) return;
-    const size_t points = receivers.points.size(), length = runLength(parts_.size());
+    const size_t points = receivers.points.size(), length = lights_->runLength();
     for (size_t begin = 0; begin < points; begin += length) {
       const size_t end = std::min(begin + length, points);
       gatherRun(begin == 0 && end == points ? receivers : slice(receivers, begin, end), shown);
@@ -132,13 +133,7 @@ class LightReplay {
   void gatherRun(const Receivers& run, bool shown) {
     const auto mine = [&](const ReceiverPoint& point) { return point.pixel == pixel_; };
     if (std::none_of(run.points.begin(), run.points.end(), mine)) return;
-    std::vector<Rgb> direct(run.points.size()), indirect(run.points.size());
-    gather(run, parts_.direct, direct, context_);
-    gather(run, parts_.nearDirect, direct, context_);
-    if (options_.component != "direct") {
-      gather(run, parts_.indirect, indirect, context_);
-      gather(run, parts_.nearIndirect, indirect, context_);
-    }
+    const auto [direct, indirect, layers] = lights_->gather(run, {}, pixel_, context_);
     for (size_t i = 0; i < run.points.size(); ++i) {
       const ReceiverPoint& point = run.points[i];
       if (!mine(point)) continue;
@@ -161,7 +156,8 @@ class LightReplay {
 
   // Lights alone, each for itself: their sum may differ from the gathered one by rounding.
   void printBrightest(const Receivers& receiver) {
-    if (!all_ && parts_.size() > kMostLights) {
+    const LightParts& parts = lights_->parts();
+    if (!all_ && parts.size() > kMostLights) {
       fmt::print("    (more than {} lights: --verbose looks at each)\n", kMostLights);
       return;
     }
@@ -169,10 +165,10 @@ class LightReplay {
     std::vector<Contribution> lights;
     size_t visible = 0, all = 0;
     using L = VirtualLights;
-    for (const auto& [source, part] : {std::pair{"of an emitter", &parts_.direct},
-                                       std::pair{"of a near emitter", &parts_.nearDirect},
-                                       std::pair{"of a bounce", &parts_.indirect},
-                                       std::pair{"of a near bounce", &parts_.nearIndirect}}) {
+    for (const auto& [source, part] : {std::pair{"of an emitter", &parts.direct},
+                                       std::pair{"of a near emitter", &parts.nearDirect},
+                                       std::pair{"of a bounce", &parts.indirect},
+                                       std::pair{"of a near bounce", &parts.nearIndirect}}) {
       const auto reaches = [&, shading = part->sphereShading](const auto& light) {
         if constexpr (std::is_same_v<std::decay_t<decltype(light)>, SphericalLight>) {
           const float d2 = lengthSquared(light.p - receiver.points[0].p);
@@ -223,7 +219,7 @@ class LightReplay {
   Context& context_;
   BandPlan plan_;
   GatherSettings gather_;  // of this pixel alone
-  LightParts parts_;
+  std::optional<LightGather> lights_;
   std::unique_ptr<PhotonMap> photons_;  // --lights photon, in the place of lights
   size_t lightCount_ = 0;
   int set_ = 0;

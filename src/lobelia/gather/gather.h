@@ -33,6 +33,8 @@ struct GatherParts {
   std::vector<Rgb> groups;     // [group * points + point]
   std::vector<Rgb> types;      // [type * points + point]
   std::vector<uint32_t> rays;  // shadow rays of a point
+  // Room for so many points.
+  void reset(size_t points);
 };
 
 // Adds to radiance[i] the light that receiver point i sends to its pixel (weight included) from all

@@ -151,6 +151,12 @@ bool wanted(const Receivers& receivers, size_t begin, size_t end, const GatherSe
 
 }  // namespace
 
+void GatherParts::reset(size_t points) {
+  groups.assign(groupCount * points, Rgb{});
+  types.assign(byType ? kTypes * points : 0, Rgb{});
+  rays.assign(countRays ? points : 0, 0);
+}
+
 void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,
                const GatherSettings& settings, std::span<Rgb> radiance, Context& context,
                GatherParts* parts) {
@@ -159,11 +165,7 @@ void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLi
     throw std::invalid_argument("gatherAll: one radiance value per receiver point");
   const size_t size = tilePoints(points);
   const size_t tiles = (points + size - 1) / size;
-  if (parts != nullptr) {
-    parts->groups.assign(parts->groupCount * points, Rgb{});
-    parts->types.assign(parts->byType ? GatherParts::kTypes * points : 0, Rgb{});
-    parts->rays.assign(parts->countRays ? points : 0, 0);
-  }
+  if (parts != nullptr) parts->reset(points);
   const TileGather tileGather(tracer, receivers, lights, settings, parts, context);
   std::atomic<uint64_t> rays{0}, pairs{0}, nonfinite{0};
   std::atomic<int64_t> visibilityNs{0}, shadeNs{0};

@@ -57,25 +57,23 @@ PreparedLight prepared(const GlossyLight& light) {
 template <class Light>
 void prepareAll(const std::vector<Light>& lights, LightBlock* block) {
   for (int i = 0; i < block->count; ++i) {
-    block->lights[i] = prepared(lights[block->first + static_cast<size_t>(i)]);
+    block->lights[i] = prepared(lights[block->index[i]]);
   }
 }
 
 void prepareSpheres(const VirtualLights& lights, const Scene& scene,
                     const std::vector<PreparedSphere>& shared, uint32_t wanted, LightBlock* block) {
   block->sphereShading = lights.sphereShading;
-  if (!shared.empty()) {
-    block->spheres = &shared[block->first];
-  } else {
-    block->ownSpheres.resize(kBlockLights);
-    for (size_t i = 0; i < static_cast<size_t>(block->count); ++i)
-      if (wanted >> i & 1) prepareSphere(scene, lights.spherical[block->first + i], lights.specularLimit,
+  if (shared.empty()) block->ownSpheres.resize(kBlockLights);
+  for (size_t i = 0; i < static_cast<size_t>(block->count); ++i) {
+    block->spheres[i] = shared.empty() ? &block->ownSpheres[i] : &shared[block->index[i]];
+    if (shared.empty() && (wanted >> i & 1))
+      prepareSphere(scene, lights.spherical[block->index[i]], lights.specularLimit,
                     &block->ownSpheres[i]);
-    block->spheres = block->ownSpheres.data();
   }
   for (int i = 0; i < block->count; ++i) {
-    const SphericalLight& light = lights.spherical[block->first + static_cast<size_t>(i)];
-    const PreparedSphere& sphere = block->spheres[i];
+    const SphericalLight& light = lights.spherical[block->index[i]];
+    const PreparedSphere& sphere = *block->spheres[i];
     PreparedLight& out = block->lights[i];
     out = {};
     out.p = light.p;
@@ -92,7 +90,7 @@ void prepareSpheres(const VirtualLights& lights, const Scene& scene,
 
 void preparePatterns(const std::vector<OmniLight>& lights, const Scene& scene, LightBlock* block) {
   for (int i = 0; i < block->count; ++i) {
-    const uint32_t emitter = lights[block->first + static_cast<size_t>(i)].emitter;
+    const uint32_t emitter = lights[block->index[i]].emitter;
     if (emitter == 0xffffffffu) continue;
     block->lights[i].pattern = static_cast<uint32_t>(block->patterns.size());
     block->patterns.emplace_back(scene, scene.emitters[emitter]);
@@ -176,9 +174,9 @@ size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass) {
 }
 
 std::vector<PreparedSphere> prepareSpheres(const VirtualLights& lights, const Scene& scene) {
-  constexpr size_t kMostShared = 1 << 16;  // about 100 MB
+  constexpr size_t kMostBytes = size_t{512} << 20;
   std::vector<PreparedSphere> spheres;
-  if (lights.spherical.size() > kMostShared) return spheres;
+  if (lights.spherical.size() > kMostBytes / sizeof(PreparedSphere)) return spheres;
   spheres.resize(lights.spherical.size());
   parallelFor(spheres.size(), 64, [&](size_t i) {
     prepareSphere(scene, lights.spherical[i], lights.specularLimit, &spheres[i]);
@@ -187,11 +185,21 @@ std::vector<PreparedSphere> prepareSpheres(const VirtualLights& lights, const Sc
 }
 
 void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightClass, size_t first,
-             size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared, uint32_t wanted) {
+             size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared,
+             uint32_t wanted) {
+  uint32_t indices[kBlockLights];
+  count = std::min(count, kBlockLights);
+  for (size_t i = 0; i < count; ++i) indices[i] = static_cast<uint32_t>(first + i);
+  prepareChosen(lights, scene, lightClass, {indices, count}, block, shared, wanted);
+}
+
+void prepareChosen(const VirtualLights& lights, const Scene& scene, LightClass lightClass,
+                   std::span<const uint32_t> indices, LightBlock* block,
+                   const std::vector<PreparedSphere>& shared, uint32_t wanted) {
   block->patterns.clear();
   block->lightClass = lightClass;
-  block->first = first;
-  block->count = static_cast<int>(std::min(count, kBlockLights));
+  block->count = static_cast<int>(indices.size());
+  std::copy(indices.begin(), indices.end(), block->index);
   switch (lightClass) {
     case LightClass::omni:
       prepareAll(lights.omni, block);

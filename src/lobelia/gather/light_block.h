@@ -1,6 +1,7 @@
 // A short run of virtual lights of one class, unpacked for the kernels.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "lobelia/gather/near_field.h"
@@ -35,12 +36,12 @@ struct PreparedLight {
 inline constexpr size_t kBlockLights = 32;
 struct LightBlock {
   LightClass lightClass = LightClass::omni;
-  size_t first = 0;  // index of lights[0] in its class
   int count = 0;
+  uint32_t index[kBlockLights];  // of the lights in their class
   PreparedLight lights[kBlockLights];
-  std::vector<EmissionPattern> patterns;    // of the lights that have one, in their order
-  const PreparedSphere* spheres = nullptr;  // spherical: parallel to lights
-  std::vector<PreparedSphere> ownSpheres;   // unless they are shared
+  std::vector<EmissionPattern> patterns;         // of the lights that have one, in their order
+  const PreparedSphere* spheres[kBlockLights];  // spherical: parallel to lights
+  std::vector<PreparedSphere> ownSpheres;        // unless they are shared
   SphereShading sphereShading;
 };
 
@@ -60,5 +61,9 @@ std::vector<PreparedSphere> prepareSpheres(const VirtualLights& lights, const Sc
 void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightClass, size_t first,
              size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared = {},
              uint32_t wanted = ~0u);
+// The same of any lights of a class, at most kBlockLights.
+void prepareChosen(const VirtualLights& lights, const Scene& scene, LightClass lightClass,
+                   std::span<const uint32_t> indices, LightBlock* block,
+                   const std::vector<PreparedSphere>& shared = {}, uint32_t wanted = ~0u);
 
 }  // namespace lobelia::gather

@@ -25,8 +25,8 @@ void allowPairs(const Tile& tile, const LightBlock& block, const VirtualLights& 
     if (settings.maxDepth < 0) continue;
     for (uint32_t lane = 0; lane < kStrip; ++lane) {
       const size_t end = rangeForDepth(lights, block.lightClass, settings, strip.depth[lane]).end;
-      for (size_t l = end > block.first ? end - block.first : 0; l < count; ++l)
-        pairs->at(l, s) &= static_cast<uint16_t>(~(1u << lane));
+      for (size_t l = 0; l < count; ++l)
+        if (block.index[l] >= end) pairs->at(l, s) &= static_cast<uint16_t>(~(1u << lane));
     }
   }
 }

@@ -412,7 +412,7 @@ class SphereSamples {
     for (size_t i = 0; i < waiting_.count; ++i) {
       const size_t pair = pair_[i];
       const V3<Vf> l{Vf::load(lX_[i].v), Vf::load(lY_[i].v), Vf::load(lZ_[i].v)};
-      const V3<Vf> light = leavingRadiance(block_.spheres[sums_->light[pair]], l);
+      const V3<Vf> light = leavingRadiance(*block_.spheres[sums_->light[pair]], l);
       const Vf weight = Vf::load(waiting_.factor[i].v);
       // 0 times what may overflow is 0.
       const Mf counts = weight > Vf(0.f);
@@ -465,7 +465,7 @@ void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane, const g
   SphereSamples samples(tile, tile.strips[stripIndex], lane, block, pairs);
   for (size_t i = 0; i < pairs->count; ++i) {
     const uint32_t light = pairs->light[i];
-    const SphereView view(tile, stripIndex, lane, block.lights[light], block.spheres[light],
+    const SphereView view(tile, stripIndex, lane, block.lights[light], *block.spheres[light],
                           block.sphereShading);
     const Mf visible = maskFromBits(pairs->mask[i]);
     for (int k = 0;; ++k) {

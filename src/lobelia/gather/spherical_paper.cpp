@@ -172,7 +172,7 @@ Rgb evaluateAsPrinted(const Tile& tile, size_t stripIndex, size_t lane, const Li
   const PointStrip& strip = tile.strips[stripIndex];
   const SamplingStrip& sampling = tile.sampling[stripIndex];
   const ReceiverPoint& point = tile.receivers->points[strip.point[lane]];
-  const PreparedSphere& sphere = block.spheres[light];
+  const PreparedSphere& sphere = *block.spheres[light];
   Rng random(hashCombine(std::bit_cast<uint32_t>(sampling.random[0][lane]),
                          std::bit_cast<uint32_t>(sampling.random[1][lane])),
              hashCombine(std::bit_cast<uint32_t>(sphere.random[0]),

@@ -1,7 +1,6 @@
 #include "lobelia/gather/tile.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "lobelia/bsdf/lobe_kind.h"
@@ -9,24 +8,6 @@
 
 namespace lobelia::gather {
 namespace {
-
-// The kinds of a point's lobes as one comparable value: four bytes a lobe, then the count.
-using Kind = std::array<uint8_t, 4 * kMaxLobes + 1>;
-
-Kind kindOf(const Receivers& receivers, const ReceiverPoint& point) {
-  Kind kind{};
-  for (size_t i = 0; i < point.lobeCount; ++i) {
-    const Lobe& lobe = receivers.lobes[point.firstLobe + i];
-    kind[4 * i] = static_cast<uint8_t>(lobe.type);
-    kind[4 * i + 1] = static_cast<uint8_t>(lobe.distribution);
-    kind[4 * i + 2] = static_cast<uint8_t>(lobe.fresnel);
-    // Of microfacets only layers above them matter: their pairing is for sampling.
-    const bool whole = lobe.type == LobeType::ward || lobe.type == LobeType::coatedDiffuse;
-    kind[4 * i + 3] = whole ? lobe.variant : static_cast<uint8_t>(lobe.variant & kCoated);
-  }
-  kind.back() = point.lobeCount;
-  return kind;
-}
 
 struct Sides {
   bool above = false, below = false;
@@ -96,11 +77,26 @@ class Tables {
 
 }  // namespace
 
+LobeKinds kindsOf(const Receivers& receivers, const ReceiverPoint& point) {
+  LobeKinds kind{};
+  for (size_t i = 0; i < point.lobeCount; ++i) {
+    const Lobe& lobe = receivers.lobes[point.firstLobe + i];
+    kind[4 * i] = static_cast<uint8_t>(lobe.type);
+    kind[4 * i + 1] = static_cast<uint8_t>(lobe.distribution);
+    kind[4 * i + 2] = static_cast<uint8_t>(lobe.fresnel);
+    // Of microfacets only layers above them matter: their pairing is for sampling.
+    const bool whole = lobe.type == LobeType::ward || lobe.type == LobeType::coatedDiffuse;
+    kind[4 * i + 3] = whole ? lobe.variant : static_cast<uint8_t>(lobe.variant & kCoated);
+  }
+  kind.back() = point.lobeCount;
+  return kind;
+}
+
 Tile makeTile(const Receivers& receivers, size_t begin, size_t end) {
-  std::vector<std::pair<Kind, size_t>> order;
+  std::vector<std::pair<LobeKinds, size_t>> order;
   for (size_t i = begin; i < end; ++i) {
     const ReceiverPoint& point = receivers.points[i];
-    if (point.lobeCount > 0) order.emplace_back(kindOf(receivers, point), i);
+    if (point.lobeCount > 0) order.emplace_back(kindsOf(receivers, point), i);
   }
   std::sort(order.begin(), order.end());
 
@@ -108,7 +104,7 @@ Tile makeTile(const Receivers& receivers, size_t begin, size_t end) {
   Tables tables(&tile.tables);
   for (size_t i = 0; i < order.size();) {
     PointStrip& strip = tile.strips.emplace_back();
-    const Kind& kind = order[i].first;
+    const LobeKinds& kind = order[i].first;
     size_t count = 0;
     while (count < kStrip && i + count < order.size() && order[i + count].first == kind) ++count;
     strip.active = (1u << count) - 1;

@@ -3,6 +3,7 @@
 // branches that all its points take alike.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "lobelia/path/receivers.h"
@@ -76,6 +77,10 @@ struct Tile {
 };
 
 inline constexpr size_t kMaxTilePoints = 256;
+
+// The kinds of a point's lobes as one comparable value: four bytes a lobe, then the count.
+using LobeKinds = std::array<uint8_t, 4 * kMaxLobes + 1>;
+LobeKinds kindsOf(const Receivers& receivers, const ReceiverPoint& point);
 
 // Strips of receivers.points[begin, end), at most kMaxTilePoints. Points without lobes are left
 // out. Points of one kind keep their order, so that neighbours stay together.

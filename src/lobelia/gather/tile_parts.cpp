@@ -93,7 +93,7 @@ void TileParts::add(const LightBlock& block, float clamp, const PairMasks& visib
 void TileParts::addGroups(const LightBlock& block, float clamp, const PairMasks& visible) {
   const size_t count = static_cast<size_t>(block.count);
   uint16_t group[kBlockLights];
-  for (size_t l = 0; l < count; ++l) group[l] = groupOf(lights_, block.lightClass, block.first + l);
+  for (size_t l = 0; l < count; ++l) group[l] = groupOf(lights_, block.lightClass, block.index[l]);
   std::vector<uint16_t> present(group, group + count);
   std::sort(present.begin(), present.end());
   present.erase(std::unique(present.begin(), present.end()), present.end());

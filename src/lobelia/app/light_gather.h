@@ -1,0 +1,43 @@
+// A set of lights, ready to be gathered by the strategy that the user chose.
+#pragma once
+
+#include <optional>
+
+#include "lobelia/app/light_reduction.h"
+#include "lobelia/gather/gather_cuts.h"
+
+namespace lobelia::app {
+
+// Throws UsageError where options of sglc are given to another strategy.
+void requireCuts(const RenderOptions& options);
+
+class LightGather {
+ public:
+  // width: of the data window. parts: as reduceParts() leaves them. When cancelled while it makes
+  // trees, it is of no use.
+  LightGather(const Tracer& tracer, const BandPlan& plan, int set, int width, LightParts parts,
+              const RenderOptions& options, Context& context);
+  LightGather(const LightGather&) = delete;
+  LightGather& operator=(const LightGather&) = delete;
+
+  struct Light {
+    std::vector<Rgb> direct, indirect;     // of the receiver points
+    std::optional<GatherParts> layers[4];  // the first two of direct light; empty: not wanted
+  };
+  // wanted: parts to be kept, too. onlyPixel: GatherSettings::onlyPixel.
+  Light gather(const Receivers& run, const std::optional<GatherParts>& wanted, uint32_t onlyPixel,
+               Context& context) const;
+
+  const LightParts& parts() const { return parts_; }
+  // How many receivers to gather at once.
+  size_t runLength() const;
+
+ private:
+  const Tracer& tracer_;
+  const GatherSettings settings_;
+  const RenderOptions& options_;
+  const LightParts parts_;
+  std::optional<gather::LightCuts> directCuts_, indirectCuts_;  // of sglc
+};
+
+}  // namespace lobelia::app

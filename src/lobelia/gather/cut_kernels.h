@@ -1,0 +1,53 @@
+// Lights for a cluster of receivers, from a cut of the light tree: stratified by the cut, drawn below
+// its nodes (docs/methods.md, "Shared stochastic cuts").
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lobelia/gather/aligned_floats.h"
+#include "lobelia/gather/kernels.h"
+#include "lobelia/trees/light_tree.h"
+
+namespace lobelia::gather {
+
+struct CutSettings {
+  size_t nodes = 1024;  // of a cluster's cut, at most
+  // The estimate of a node's contribution has at least this share of what it would be at the peaks
+  // of both ends' lobes: where their shapes are told wrongly, what is drawn too rarely flares.
+  float floor = 0.01f;
+};
+
+struct CutLight {
+  uint32_t number;    // of the light
+  float probability;  // that it stands for its node
+};
+
+// A single strip of a tile with Gaussians (addSampling()), and each lane's weight in the picture; 0
+// where it is not active.
+struct CutReceivers {
+  const Tile& tile;
+  alignas(64) float weight[kStrip];
+};
+
+class CutScratch {
+ public:
+  struct Entry {
+    float priority;
+    uint32_t tree, node;
+  };
+  std::vector<Entry> heap, done;
+};
+
+// By one cut of several trees. The lights in the order of the trees' leaves, none twice. seed: of
+// what is drawn. Returns the number of nodes whose importance was computed.
+size_t drawCutLights(const CutReceivers& receivers, std::span<const trees::LightTree> trees,
+                     const CutSettings& settings, uint64_t seed, CutScratch* scratch,
+                     std::vector<CutLight>* lights);
+
+// As keepVisible() for a tile of one strip, but by one ray per light, from one of the points that
+// face it: it answers for all of them.
+size_t keepVisibleByOne(const Tile& tile, const LightBlock& block, const Tracer& tracer,
+                        uint64_t seed, PairMasks* pairs);
+
+}  // namespace lobelia::gather

@@ -1,0 +1,50 @@
+// Shared stochastic cuts: a gather strategy for very many lights (docs/methods.md).
+//
+// A cluster of up to 16 neighbouring receivers shares a cut of the light tree, chosen by estimates
+// of what its nodes contribute. For every node one of its lights is drawn, by the same estimates;
+// over its probability it stands for the node at every receiver of the cluster, each with its own
+// reflectance. One shadow ray per light, from a receiver drawn among the cluster's, answers for
+// all of them (CutGatherSettings::shared), or every receiver traces its own.
+#pragma once
+
+#include "lobelia/gather/cut_kernels.h"
+#include "lobelia/gather/gather.h"
+#include "lobelia/gather/tree_lights.h"
+
+namespace lobelia::gather {
+
+struct CutGatherSettings {
+  GatherSettings gather;
+  CutSettings cut;
+  bool shared = true;  // visibility, in clusters of neighbouring pixels
+  int width = 0;       // pixels in a row of the data window
+  uint64_t seed = 0;
+};
+
+// Lights with their trees. It keeps references to lights and tracer.
+class LightCuts {
+ public:
+  // Books seconds to "trees".
+  LightCuts(const Tracer& tracer, const VirtualLights& lights, const CutGatherSettings& settings,
+            Context& context);
+
+  // As gatherAll(), whose mean this has but for visibility where it is shared. Also counts
+  // "node_pairs_visited" (nodes whose estimate was computed) and "cut_lights"; books the seconds of
+  // choosing lights to "traverse". onlyPixel: GatherSettings::onlyPixel, for clusters.
+  void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
+              Context& context, GatherParts* parts = nullptr) const;
+  size_t bytes() const;
+
+ private:
+  struct Tally;
+  class ClusterGather;
+
+  const Tracer& tracer_;
+  const VirtualLights& lights_;
+  const CutGatherSettings settings_;
+  const LightNumbers numbers_;
+  trees::LightTree trees_[kLightTrees];
+  std::vector<PreparedSphere> spheres_;
+};
+
+}  // namespace lobelia::gather

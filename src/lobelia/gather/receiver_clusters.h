@@ -1,0 +1,23 @@
+// Receivers in clusters of up to 16 that are alike: of the same kinds of lobes, near each other and
+// turned alike. A cluster fits one strip (tile.h). Where few pixels of a picture are rendered, far
+// apart, receivers stay alone.
+#pragma once
+
+#include "lobelia/gather/tile.h"
+
+namespace lobelia::gather {
+
+struct ReceiverClusters {
+  Receivers receivers;          // points[i] is points[order[i]] of what was given
+  std::vector<uint32_t> order;  // points without lobes are left out
+  struct Cluster {
+    uint32_t begin = 0, end = 0;  // of the points
+    bool compact = false;         // its pixels are near neighbours
+  };
+  std::vector<Cluster> clusters;
+};
+
+// scale: size of the scene; width: pixels in a row of the data window.
+ReceiverClusters clusterReceivers(const Receivers& receivers, float scale, int width);
+
+}  // namespace lobelia::gather

@@ -1,0 +1,123 @@
+#include "lobelia/gather/tree_lights.h"
+
+#include <algorithm>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/lobes/spherical_gaussian.h"
+
+namespace lobelia::gather {
+namespace {
+
+using trees::TreeLight;
+
+// Where directional lights stand, in radii of the scene.
+constexpr float kFar = 100;
+
+TreeLight asTreeLight(const OmniLight& light) {
+  TreeLight out;
+  out.p = light.p;
+  out.diffuse = 4 * luminance(light.intensity);
+  return out;
+}
+
+TreeLight asTreeLight(const DirectionalLight& light, const Bounds3f& bounds) {
+  const float distance = kFar * std::max(bounds.radius(), 1e-6f);
+  TreeLight out;
+  out.p = bounds.centre() + light.direction * distance;
+  out.diffuse = 4 * luminance(light.irradiance) * distance * distance;
+  return out;
+}
+
+TreeLight asTreeLight(const DiffuseLight& light) {
+  TreeLight out;
+  out.p = light.p;
+  out.n = decodeOctahedral(light.normal);
+  out.diffuse = luminance(light.intensity);
+  return out;
+}
+
+TreeLight asTreeLight(const GlossyLight& light) {
+  TreeLight out;
+  out.p = light.p;
+  out.n = light.n;
+  out.axis = light.axis;
+  out.sharpness = light.sharpness;
+  out.glossy = luminance(light.intensity) * lobes::integral(light.sharpness);
+  return out;
+}
+
+TreeLight asTreeLight(const SphericalLight& light, float specularLimit, const Scene& scene) {
+  PreparedSphere sphere;
+  prepareSphere(scene, light, specularLimit, &sphere);
+  const float power = luminance(light.power);
+  TreeLight out;
+  out.p = light.p;
+  out.variance = 0.5f * sphere.squaredRadius;
+  if (!sphere.transmits) out.n = sphere.disc.n;
+  out.diffuse = power * sphere.diffuse;
+  lobes::Moment moment;
+  for (int i = 0; i < sphere.gaussianCount; ++i) {
+    const PreparedSphere::Gaussian& g = sphere.gaussians[i];
+    moment.add(lobes::momentOf(g.axis, g.sharpness,
+                               power * g.amplitude * lobes::integral(g.sharpness)));
+  }
+  if (moment.weight > 0) {
+    const lobes::SphericalGaussian lobe = lobes::lobeOf(moment);
+    out.axis = lobe.axis;
+    out.sharpness = lobe.sharpness;
+    out.glossy = moment.weight;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
+                                               const LightNumbers& numbers, const Scene& scene,
+                                               const Bounds3f& bounds) {
+  std::array<TreeLights, kLightTrees> out;
+  // Where a block's lights go: behind those of the blocks before it.
+  struct Place {
+    LightNumbers::Block block;
+    TreeLights* tree;
+    size_t first;
+  };
+  std::vector<Place> places;
+  size_t sizes[kLightTrees] = {};
+  for (size_t b = 0; b < numbers.blockCount(); ++b) {
+    const LightNumbers::Block block = numbers.block(b);
+    const size_t tree = block.lightClass == LightClass::directional ? 1 : 0;
+    places.push_back({block, &out[tree], sizes[tree]});
+    sizes[tree] += block.count;
+  }
+  for (size_t t = 0; t < kLightTrees; ++t)
+    out[t].lights.resize(sizes[t]), out[t].numbers.resize(sizes[t]);
+  parallelFor(places.size(), 16, [&](size_t b) {
+    const LightNumbers::Block& block = places[b].block;
+    for (size_t i = 0; i < block.count; ++i) {
+      const size_t index = block.first + i, place = places[b].first + i;
+      places[b].tree->numbers[place] = static_cast<uint32_t>(block.number + i);
+      TreeLight& light = places[b].tree->lights[place];
+      switch (block.lightClass) {
+        case LightClass::omni:
+          light = asTreeLight(lights.omni[index]);
+          break;
+        case LightClass::directional:
+          light = asTreeLight(lights.directional[index], bounds);
+          break;
+        case LightClass::diffuse:
+          light = asTreeLight(lights.diffuse[index]);
+          break;
+        case LightClass::glossy:
+          light = asTreeLight(lights.glossy[index]);
+          break;
+        case LightClass::spherical:
+          light = asTreeLight(lights.spherical[index], lights.specularLimit, scene);
+          break;
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace lobelia::gather

@@ -1,0 +1,23 @@
+// Virtual lights of every class as the light tree takes them.
+#pragma once
+
+#include <array>
+
+#include "lobelia/gather/light_choice.h"
+#include "lobelia/gather/sphere.h"
+#include "lobelia/trees/light_tree.h"
+
+namespace lobelia::gather {
+
+// Directional lights, which stand far outside of the scene, and all others: a node of both would be
+// told very wrongly.
+inline constexpr size_t kLightTrees = 2;
+struct TreeLights {
+  std::vector<trees::TreeLight> lights;
+  std::vector<uint32_t> numbers;  // of the lights
+};
+std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
+                                               const LightNumbers& numbers, const Scene& scene,
+                                               const Bounds3f& bounds);
+
+}  // namespace lobelia::gather

@@ -1,0 +1,249 @@
+// Shared stochastic cuts against the sum over all lights.
+#include "lobelia/gather/gather_cuts.h"
+
+#include "gather/mrcs_input.h"
+#include "gather/spherical_setup.h"
+#include "lobelia/base/parallel.h"
+#include "lobelia/gather/receiver_clusters.h"
+
+namespace lobelia {
+namespace {
+
+using namespace gather;
+using namespace test;
+
+constexpr uint32_t kAll = GatherSettings::kAllPixels;
+
+class GatherCuts : public testing::Test {
+ protected:
+  static constexpr int kWidth = 20, kHeight = 15;
+
+  GatherCuts() {
+    settings_.gather.direct = true;
+    settings_.shared = false;
+    settings_.width = kWidth;
+  }
+  std::vector<Rgb> all(const Tracer& tracer, const VirtualLights& lights) {
+    std::vector<Rgb> radiance(receivers_.points.size());
+    gatherAll(tracer, receivers_, lights, settings_.gather, radiance, context_);
+    return radiance;
+  }
+  std::vector<Rgb> some(const Tracer& tracer, const VirtualLights& lights,
+                        GatherParts* parts = nullptr) {
+    std::vector<Rgb> radiance(receivers_.points.size());
+    const LightCuts cuts(tracer, lights, settings_, context_);
+    cuts.gather(receivers_, kAll, radiance, context_, parts);
+    return radiance;
+  }
+  static double sum(const std::vector<Rgb>& light) {
+    double total = 0;
+    for (const Rgb& value : light) total += double{value.x} + double{value.y} + double{value.z};
+    return total;
+  }
+  // Sums over groups of receivers and the whole; each a mean over draws must equal.
+  static std::vector<double> groupSums(const std::vector<Rgb>& light) {
+    std::vector<double> sums(13, 0.0);
+    for (size_t i = 0; i < light.size(); ++i) {
+      const double value = double{light[i].x} + double{light[i].y} + double{light[i].z};
+      sums[i * 12 / light.size()] += value;
+      sums[12] += value;
+    }
+    return sums;
+  }
+  void expectUnbiased(const Tracer& tracer, const VirtualLights& lights, int draws,
+                      const std::vector<Rgb>& all) {
+    const std::vector<double> exact = groupSums(all);
+    std::vector<double> mean(exact.size(), 0.0), squares(exact.size(), 0.0);
+    for (int draw = 0; draw < draws; ++draw) {
+      settings_.seed = static_cast<uint64_t>(draw);
+      const std::vector<double> sums = groupSums(some(tracer, lights));
+      for (size_t g = 0; g < sums.size(); ++g)
+        mean[g] += sums[g] / draws, squares[g] += sums[g] * sums[g] / draws;
+    }
+    for (size_t g = 0; g < exact.size(); ++g) {
+      const double error = std::sqrt((squares[g] - mean[g] * mean[g]) / draws);
+      EXPECT_GT(error, 0) << "group " << g;
+      EXPECT_NEAR(mean[g], exact[g], 4 * error) << "group " << g;
+      EXPECT_LT(error, 0.1 * exact[g]) << "group " << g << ": says too little";
+    }
+  }
+
+  Receivers receivers_ = randomReceivers(
+      static_cast<size_t>(kWidth * kHeight), {LobeType::lambert, LobeType::phong, LobeType::ward}, 1,
+      3);
+  CutGatherSettings settings_;
+  Context context_;
+};
+
+// Lights of the classes that stand alone, and some that hide them.
+class GatherPointCuts : public GatherCuts {
+ protected:
+  Scene scene_ = randomTriangles(60, 11);
+  Tracer tracer_{scene_, context_};
+  VirtualLights lights_ = randomLights(300, 100.f, 5);
+};
+
+// Spherical lights of several materials.
+class GatherSphericalCuts : public GatherCuts, public testing::WithParamInterface<Material> {
+ protected:
+  static constexpr int kLights = 600;
+  GatherSphericalCuts() {
+    Rng random(4);
+    const SphericalLight light = floor_.lights().spherical[0];
+    floor_.lights().spherical.clear();
+    for (int i = 0; i < kLights; ++i) {
+      SphericalLight l = light;
+      const Vec2f u = random.next2D();
+      l.p = Vec3f(LitFloor::kMiddle) + Vec3f{3 * u.x - 1.5f, 3 * u.y - 1.5f, 0};
+      l.radius = 0.05f + 0.1f * random.next1D();
+      const Vec2f v = random.next2D();
+      l.arriving = encodeOctahedral(normalize(Vec3f{2 * v.x - 1, 2 * v.y - 1, 0.5f}));
+      l.power *= random.next1D();
+      floor_.lights().spherical.push_back(l);
+    }
+    floor_.lights().sphericalDepthEnds = {0, kLights};
+    for (ReceiverPoint& point : receivers_.points) point.p += Vec3f(LitFloor::kMiddle);
+  }
+  LitFloor floor_{GetParam(), 0.3f, {0.2f, 0, 1}};
+};
+
+TEST_F(GatherPointCuts, ACutOfAllLightsIsTheSum) {
+  const std::vector<Rgb> exact = all(tracer_, lights_), cut = some(tracer_, lights_);
+  settings_.cut.nodes = 1200;
+  const std::vector<Rgb> whole = some(tracer_, lights_);
+  bool differ = false;
+  for (size_t i = 0; i < exact.size(); ++i) {
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(whole[i][c], exact[i][c], 2e-5f * exact[i][c] + 1e-12f) << i;
+    differ |= cut[i] != exact[i];
+  }
+  EXPECT_TRUE(differ) << "1024 of 1200 lights";
+  EXPECT_GT(sum(exact), 0);
+}
+
+TEST_F(GatherPointCuts, MeanOverSeedsIsTheLightOfAll) {
+  settings_.cut.nodes = 100;
+  settings_.gather.clamp = 3;
+  expectUnbiased(tracer_, lights_, 300, all(tracer_, lights_));
+  settings_.gather.maxDepth = 4;
+  expectUnbiased(tracer_, lights_, 200, all(tracer_, lights_));
+}
+
+TEST_F(GatherPointCuts, EveryClassAlone) {
+  settings_.cut.nodes = 40;
+  settings_.gather.clamp = 3;
+  for (const LightClass lightClass :
+       {LightClass::omni, LightClass::directional, LightClass::diffuse, LightClass::glossy}) {
+    SCOPED_TRACE(static_cast<int>(lightClass));
+    VirtualLights one = lights_;
+    if (lightClass != LightClass::omni) one.omni.clear();
+    if (lightClass != LightClass::directional) one.directional.clear();
+    if (lightClass != LightClass::diffuse) one.diffuse.clear(), one.diffuseDepthEnds.clear();
+    if (lightClass != LightClass::glossy) one.glossy.clear(), one.glossyDepthEnds.clear();
+    expectUnbiased(tracer_, one, 200, all(tracer_, one));
+  }
+}
+
+// Where nothing hides anything, one ray says as much as many.
+TEST_F(GatherPointCuts, SharedRaysChangeVisibilityOnly) {
+  Scene empty = randomTriangles(1, 1);
+  for (Vec3f& p : empty.meshes[0].positions) p += Vec3f(50.f);
+  const Tracer open(empty, context_);
+  settings_.cut.nodes = 200;
+  const std::vector<Rgb> own = some(open, lights_);
+  const uint64_t rays = context_.statistics.count("shadow_rays");
+  settings_.shared = true;
+  EXPECT_EQ(some(open, lights_), own);
+  EXPECT_LT(4 * (context_.statistics.count("shadow_rays") - rays), rays) << "by one of many";
+  EXPECT_NE(some(tracer_, lights_), own);
+  for (ReceiverPoint& point : receivers_.points) point.pixel *= 100 * kWidth;
+  const std::vector<Rgb> apart = some(tracer_, lights_);
+  settings_.shared = false;
+  EXPECT_EQ(apart, some(tracer_, lights_)) << "only neighbours share";
+}
+
+TEST_F(GatherPointCuts, ThreadsDoNotMatter) {
+  settings_.cut.nodes = 50;
+  settings_.shared = true;
+  const std::vector<Rgb> many = some(tracer_, lights_);
+  const ThreadLimit limit(1);
+  EXPECT_EQ(some(tracer_, lights_), many);
+  settings_.seed = 1;
+  EXPECT_NE(some(tracer_, lights_), many);
+}
+
+TEST_F(GatherPointCuts, OnePixelAloneHasTheSameBits) {
+  const std::vector<Rgb> whole = some(tracer_, lights_);
+  const LightCuts cuts(tracer_, lights_, settings_, context_);
+  std::vector<Rgb> one(whole.size());
+  cuts.gather(receivers_, 37, one, context_);
+  EXPECT_EQ(one[37], whole[37]);
+  EXPECT_NE(one[37], Rgb{});
+  EXPECT_LE(std::count_if(one.begin(), one.end(), [](Rgb v) { return v != Rgb{}; }), kStrip);
+}
+
+TEST_F(GatherPointCuts, PartsAddUp) {
+  settings_.cut.nodes = 64;
+  lights_.groups = {"a", "b"};
+  lights_.omniGroups.assign(lights_.omni.size(), 1);
+  GatherParts parts;
+  parts.groupCount = 2, parts.byType = true, parts.countRays = true;
+  const std::vector<Rgb> whole = some(tracer_, lights_, &parts);
+  const size_t n = whole.size();
+  uint64_t rays = 0;
+  for (size_t i = 0; i < n; ++i) {
+    Rgb types;
+    for (size_t t = 0; t < GatherParts::kTypes; ++t) types += parts.types[t * n + i];
+    const Rgb groups = parts.groups[i] + parts.groups[n + i];
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(types[c], whole[i][c], 1e-4f * whole[i][c] + 1e-9f);
+      EXPECT_NEAR(groups[c], whole[i][c], 1e-4f * whole[i][c] + 1e-9f);
+    }
+    rays += parts.rays[i];
+  }
+  EXPECT_EQ(rays, context_.statistics.count("shadow_rays"));
+}
+
+TEST_F(GatherPointCuts, NoLightsNoReceivers) {
+  EXPECT_EQ(sum(some(tracer_, {})), 0);
+  receivers_ = {};
+  EXPECT_TRUE(some(tracer_, lights_).empty());
+}
+
+// Directions are drawn by what the points of a strip have in common, so the sum over all lights in
+// the same clusters is what the mean must be.
+TEST_P(GatherSphericalCuts, MeanOverSeedsIsTheLightOfAll) {
+  settings_.cut.nodes = kLights;
+  const std::vector<Rgb> whole = some(floor_.tracer(), floor_.lights());
+  const double exact = sum(all(floor_.tracer(), floor_.lights()));
+  EXPECT_NEAR(sum(whole), exact, 0.03 * exact);
+  settings_.cut.nodes = 200;
+  expectUnbiased(floor_.tracer(), floor_.lights(), 300, whole);
+}
+
+INSTANTIATE_TEST_SUITE_P(Materials, GatherSphericalCuts,
+                         testing::Values(phongMaterial(0.8f, 0, 1), phongMaterial(0.2f, 0.6f, 200),
+                                         roughMetal(Distribution::ggx, 0.2f, 0.2f),
+                                         wardMaterial(0.05f, 0.3f)));
+
+TEST_F(GatherCuts, ClustersHoldEveryReceiverOnce) {
+  receivers_.points[5].lobeCount = 0;
+  const ReceiverClusters clusters = clusterReceivers(receivers_, 2, kWidth);
+  std::vector<int> seen(receivers_.points.size(), 0);
+  for (const ReceiverClusters::Cluster& cluster : clusters.clusters) {
+    ASSERT_LT(cluster.begin, cluster.end);
+    ASSERT_LE(cluster.end - cluster.begin, static_cast<uint32_t>(kStrip));
+    const LobeKinds kinds = kindsOf(receivers_, receivers_.points[clusters.order[cluster.begin]]);
+    for (uint32_t i = cluster.begin; i < cluster.end; ++i) {
+      const ReceiverPoint& point = receivers_.points[clusters.order[i]];
+      EXPECT_EQ(kindsOf(receivers_, point), kinds);
+      EXPECT_EQ(clusters.receivers.points[i].pixel, point.pixel);
+      ++seen[clusters.order[i]];
+    }
+    EXPECT_EQ(makeTile(clusters.receivers, cluster.begin, cluster.end).strips.size(), 1u);
+  }
+  for (size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], i == 5 ? 0 : 1);
+}
+
+}  // namespace
+}  // namespace lobelia
