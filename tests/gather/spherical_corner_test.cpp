@@ -51,7 +51,7 @@ class Corner : public testing::Test {
     LightSettings settings;
     settings.radiusFactor = radiusFactor;
     lights_.sphereShading.indicator = indicator;
-    chooseRadii(scene_, settings, &lights_);
+    chooseRadii(tracer_, settings, &lights_, context_);
     coverSurfaces(tracer_, &lights_, context_);
     Bsdf bsdf;
     bsdf.add(Lobe{});
@@ -110,7 +110,7 @@ TEST_F(Corner, PlanarIndicatorKeepsCornersLit) {
 TEST_F(Corner, MissingPartsOfDiscsLoseAndAddNoPower) {
   LightSettings settings;
   settings.radiusFactor = 2;
-  chooseRadii(scene_, settings, &lights_);
+  chooseRadii(tracer_, settings, &lights_, context_);
   coverSurfaces(tracer_, &lights_, context_);
   Rng random(4);
   size_t partial = 0;
@@ -141,6 +141,24 @@ TEST_F(Corner, MissingPartsOfDiscsLoseAndAddNoPower) {
 // The paper's indicator darkens them: the test above would notice.
 TEST_F(Corner, CosineIndicatorDarkensThem) {
   EXPECT_LT(relative(0.02f, 1, SphereShading::Indicator::cosine), 0.65);
+}
+
+// Without a factor: twice that distance, less near the wall, where the light on it changes quickly.
+TEST_F(Corner, AutomaticRadiusIsSmallerInCreases) {
+  const std::vector<float> distances = tenthNeighbourDistances(scene_, lights_.spherical);
+  chooseRadii(tracer_, {}, &lights_, context_);
+  size_t open = 0, crease = 0;
+  for (size_t i = 0; i < distances.size(); ++i) {
+    const SphericalLight& light = lights_.spherical[i];
+    const float over = light.radius / distances[i];
+    EXPECT_LE(over, 2.0001f);
+    EXPECT_GE(over, 0.7999f);
+    if (light.p.y > 8 * distances[i]) open += over > 1.9999f;
+    if (light.p.y < distances[i]) crease += over < 1.9f;
+  }
+  EXPECT_GT(open, lights_.spherical.size() / 4);
+  EXPECT_GT(crease, 10u);
+  EXPECT_EQ(context_.statistics.count("path_rays"), 16 * lights_.spherical.size());
 }
 
 TEST_F(Corner, RadiusIsTheTenthNeighboursDistance) {

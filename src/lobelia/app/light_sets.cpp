@@ -145,7 +145,7 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
     lights.sphereShading = settings.sphereShading;
     // Radii and discs are this render's affair.
     if (!lights.spherical.empty()) {
-      chooseRadii(tracer.scene(), settings, &lights);
+      chooseRadii(tracer, settings, &lights, context);
       coverSurfaces(tracer, &lights, context);
     }
     return lights;

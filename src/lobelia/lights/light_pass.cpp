@@ -189,7 +189,7 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   const ParticleWalk walk(tracer, emitters, settings, lights.seed, kStream, scale);
   collect(traceParticles(walk, particles, context, true), &lights, context);
   if (!context.cancelled() && !lights.spherical.empty()) {
-    chooseRadii(tracer.scene(), settings, &lights);
+    chooseRadii(tracer, settings, &lights, context);
     coverSurfaces(tracer, &lights, context);
   }
   lights.particles = particles;

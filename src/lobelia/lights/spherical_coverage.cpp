@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "lobelia/base/parallel.h"
-#include "lobelia/scene/shading.h"
+#include "lobelia/lights/spherical_radius.h"
 
 namespace lobelia {
 namespace {
@@ -68,7 +68,7 @@ class CoverageTest {
   uint64_t cover(SphericalLight* light) const {
     const SurfacePoint at =
         surfacePoint(tracer_.scene(), {0, light->b1, light->b2, light->instance, light->triangle});
-    const Vec3f n = dot(at.ng, decodeOctahedral(light->arriving)) < 0 ? -at.ng : at.ng;
+    const Vec3f n = litNormal(at, *light);
     const Frame frame = discFrame(n);
     const float r = light->radius;
     const Vec3f origin = light->p + n * (kHeight * r);

@@ -2,10 +2,13 @@
 // radius to the resulting search radius multiplied by a user-specified constant".
 //
 // Deviations: neighbours count only on similarly oriented surface, so that spheres do not grow over
-// the gap between two walls that both are dense with lights; without a factor the radius is twice
-// the distance, where the paper takes 4 to 12 times and leaves an automatic choice as "desirable":
-// with the planar indicator smaller spheres have less error (docs/performance.md), and passes shrink
-// them further.
+// the gap between two walls that both are dense with lights. Without a factor, where the paper takes
+// 4 to 12 times the distance and leaves an automatic choice as "desirable", the radius is twice the
+// distance (with the planar indicator smaller spheres have less error: docs/performance.md), and at
+// most a share of the harmonic mean distance of what the light's surface sees, which is how far
+// indirect light changes little [Ward88 section 3]: in creases, where lights are sparse, wide spheres
+// blur contact shadows. It is not made smaller than a share of the former: a few lights with much
+// smaller spheres than their neighbours' distance flare. Passes shrink the radii further.
 #include "lobelia/lights/spherical_radius.h"
 
 #include <algorithm>
@@ -21,8 +24,11 @@ namespace {
 constexpr size_t kNeighbours = 10;
 constexpr float kLeastCosine = 0.9f;
 
-// Radius over the tenth neighbour's distance when the user names none.
+// When the user names no factor: radius over the tenth neighbour's distance; limit of the radius over
+// the harmonic mean distance of other surface; the least share of the former that the limit leaves.
 constexpr float kAutomaticFactor = 2.f;
+constexpr float kOpenShare = 0.3f;
+constexpr float kLeastShare = 0.4f;
 
 struct Cloud {
   const std::vector<SphericalLight>& lights;
@@ -37,10 +43,31 @@ using Tree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud, float, uint32_t>,
                                         Cloud, 3, uint32_t>;
 
-// The lit side's normal, octahedral.
-uint32_t litNormal(const Scene& scene, const SphericalLight& light) {
-  const Vec3f ng = surfacePoint(scene, {0, light.b1, light.b2, light.instance, light.triangle}).ng;
-  return encodeOctahedral(dot(ng, decodeOctahedral(light.arriving)) < 0 ? -ng : ng);
+SurfacePoint surfaceOf(const Scene& scene, const SphericalLight& light) {
+  return surfacePoint(scene, {0, light.b1, light.b2, light.instance, light.triangle});
+}
+
+// Harmonic mean distance of what a light's surface sees on the lit side, by a packet of rays in
+// proportion to the cosine.
+float openness(const Tracer& tracer, const SphericalLight& light) {
+  constexpr int kRays = ShadowPacket::kSize;
+  constexpr float kGoldenAngle = 2.39996323f;
+  const SurfacePoint at = surfaceOf(tracer.scene(), light);
+  const Vec3f n = litNormal(at, light), origin = offsetOrigin(at, n);
+  const Frame frame = frameFromNormal(n);
+  ShadowPacket packet{};
+  for (int lane = 0; lane < kRays; ++lane) {
+    const float u = (static_cast<float>(lane) + 0.5f) / kRays;
+    const float phi = kGoldenAngle * static_cast<float>(lane), sine = std::sqrt(u);
+    const Vec3f local{sine * std::cos(phi), sine * std::sin(phi), std::sqrt(1 - u)};
+    packet.set(lane, Ray{origin, frame.toWorld(local), 0, 3e38f});
+  }
+  std::optional<Hit> hits[kRays];
+  tracer.intersect(packet, true, hits);
+  float sum = 0;
+  for (const std::optional<Hit>& hit : hits)
+    if (hit) sum += 1 / std::max(hit->t, 1e-20f);
+  return sum > 0 ? kRays / sum : 3e38f;
 }
 
 // nanoflann's result set: the nearest that are oriented alike. After kMostVisited candidates it
@@ -108,7 +135,9 @@ std::vector<float> tenthNeighbourDistances(const Scene& scene,
   std::vector<float> distances(lights.size());
   if (lights.empty()) return distances;
   std::vector<uint32_t> normals(lights.size());
-  parallelFor(lights.size(), 1024, [&](size_t i) { normals[i] = litNormal(scene, lights[i]); });
+  parallelFor(lights.size(), 1024, [&](size_t i) {
+    normals[i] = encodeOctahedral(litNormal(surfaceOf(scene, lights[i]), lights[i]));
+  });
   const Cloud cloud{lights};
   const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
   parallelFor(lights.size(), 256, [&](size_t i) {
@@ -122,11 +151,24 @@ std::vector<float> tenthNeighbourDistances(const Scene& scene,
   return distances;
 }
 
-void chooseRadii(const Scene& scene, const LightSettings& settings, VirtualLights* lights) {
-  const std::vector<float> distances = tenthNeighbourDistances(scene, lights->spherical);
-  const float factor = settings.radiusFactor > 0 ? settings.radiusFactor : kAutomaticFactor;
-  for (size_t i = 0; i < distances.size(); ++i)
-    lights->spherical[i].radius = distances[i] * factor * settings.radiusScale;
+Vec3f litNormal(const SurfacePoint& at, const SphericalLight& light) {
+  return dot(at.ng, decodeOctahedral(light.arriving)) < 0 ? -at.ng : at.ng;
+}
+
+void chooseRadii(const Tracer& tracer, const LightSettings& settings, VirtualLights* lights,
+                 Context& context) {
+  std::vector<SphericalLight>& all = lights->spherical;
+  const std::vector<float> distances = tenthNeighbourDistances(tracer.scene(), all);
+  const bool automatic = !(settings.radiusFactor > 0);
+  parallelFor(all.size(), 256, [&](size_t i) {
+    float radius = distances[i] * (automatic ? kAutomaticFactor : settings.radiusFactor);
+    if (automatic) {
+      const float limit = kOpenShare * openness(tracer, all[i]);
+      radius = std::min(radius, std::max(limit, kLeastShare * radius));
+    }
+    all[i].radius = radius * settings.radiusScale;
+  });
+  if (automatic) context.statistics.addCount("path_rays", all.size() * ShadowPacket::kSize);
 }
 
 }  // namespace lobelia

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "lobelia/lights/light_pass.h"
-#include "lobelia/scene/scene.h"
+#include "lobelia/scene/shading.h"
+#include "lobelia/trace/tracer.h"
 
 namespace lobelia {
 
@@ -12,8 +13,13 @@ namespace lobelia {
 std::vector<float> tenthNeighbourDistances(const Scene& scene,
                                            const std::vector<SphericalLight>& lights);
 
-// Sets the radius of every light: that distance times settings.radiusFactor (0: kAutomaticFactor of
-// the .cpp) and radiusScale.
-void chooseRadii(const Scene& scene, const LightSettings& settings, VirtualLights* lights);
+// The geometric normal on the side that a light's power came from.
+Vec3f litNormal(const SurfacePoint& at, const SphericalLight& light);
+
+// Sets the radius of every light: that distance times settings.radiusFactor and radiusScale.
+// radiusFactor 0: twice that distance, less where other surface is near: light changes over lengths
+// of its distance. Counts "path_rays".
+void chooseRadii(const Tracer& tracer, const LightSettings& settings, VirtualLights* lights,
+                 Context& context);
 
 }  // namespace lobelia
