@@ -62,7 +62,7 @@ TEST(CommandLine, FileSizeLimitsLeaveNothing) {
 TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
   const TemporaryFolder folder;
   for (const char* method :
-       {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs", "vpl --compensate", "photon"}) {
+       {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs", "vsl --gather sglc", "vpl --compensate", "photon"}) {
     ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
                          " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
                   .exitCode,
@@ -116,6 +116,7 @@ TEST(CommandLine, RenderWritesPicturesAovsStatisticsAndMetadata) {
 TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
   const TemporaryFolder folder;
   for (const char* method : {"path", "light", "glossy", "vpl", "vsl", "vsl --gather mrcs",
+                             "vsl --gather sglc --cut-size 20", "vpl --gather sglc --cut-size 20",
                              "glossy --compensate", "photon"}) {
     const auto render = [&](int threads, const char* seed) {
       const std::string file = folder / (std::to_string(threads) + seed + ".exr");

@@ -202,6 +202,25 @@ TEST_F(LightLayers, TypesSumToWhatWasGathered) {
   EXPECT_LT(difference(indirect, parts, "indirect"), 1e-4);
 }
 
+TEST_F(LightLayers, TypesOfSphericalLights) {
+  const std::vector<std::string> parts{"vd", "vs", "specular"};
+  for (const char* gather : {"all", "mrcs", "sglc"}) {
+    SCOPED_TRACE(gather);
+    const Film film = render("all.xml",
+                             "--lights vsl --spp 2 --num-lights 500 --specular-limit 0 --component "
+                             "indirect --aov types,groups,indirect,specular,cost --gather " +
+                                 std::string(gather));
+    EXPECT_GT(meanOf(film, "vd"), 0);
+    EXPECT_GT(meanOf(film, "vs"), 0);
+    EXPECT_EQ(meanOf(film, "dd"), 0);
+    EXPECT_LT(difference(film, parts, "indirect"), 1e-4);
+  }
+  EXPECT_EQ(runProgram("render " + (folder_ / "all.xml") + " --lights vsl --vsl-sampling paper " +
+                       "--aov types -o " + (folder_ / "x.exr"))
+                .exitCode,
+            2);
+}
+
 TEST_F(LightLayers, CostOfAPathTracerIsItsRays) {
   const Film film = render("all.xml", "--lights path --spp 4 --aov cost");
   EXPECT_EQ(film.layers.at("cost").channels, 1);

@@ -143,10 +143,15 @@ TEST_F(Corner, CosineIndicatorDarkensThem) {
   EXPECT_LT(relative(0.02f, 1, SphereShading::Indicator::cosine), 0.65);
 }
 
-// Without a factor: twice that distance, less near the wall, where the light on it changes quickly.
+// Without a factor: twice that distance; of many sets less near the wall, where light changes quickly.
 TEST_F(Corner, AutomaticRadiusIsSmallerInCreases) {
   const std::vector<float> distances = tenthNeighbourDistances(scene_, lights_.spherical);
   chooseRadii(tracer_, {}, &lights_, context_);
+  for (size_t i = 0; i < distances.size(); ++i)
+    EXPECT_EQ(lights_.spherical[i].radius, 2 * distances[i]) << "of one set";
+  LightSettings settings;
+  settings.sets = 16;
+  chooseRadii(tracer_, settings, &lights_, context_);
   size_t open = 0, crease = 0;
   for (size_t i = 0; i < distances.size(); ++i) {
     const SphericalLight& light = lights_.spherical[i];

@@ -23,7 +23,12 @@ gather::CutGatherSettings settingsFor(const RenderOptions& options, const BandPl
 }  // namespace
 
 void requireCuts(const RenderOptions& options) {
-  if (options.gather == "sglc") return;
+  if (options.gather == "sglc") {
+    if (options.lights != "path" && options.lights != "light") return;
+    throw UsageError(fmt::format(
+        "--gather sglc gathers virtual lights and --lights {} has none; use vpl, glossy or vsl",
+        options.lights));
+  }
   for (const auto& [name, given] : {std::pair{"--sglc-mode", !options.cutMode.empty()},
                                     std::pair{"--cut-size", options.cutSize > 0}}) {
     if (given)

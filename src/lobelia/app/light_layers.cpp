@@ -40,8 +40,13 @@ void requireLightLayers(const RenderOptions& options) {
       options.lights != "path" && options.lights != "light" && options.lights != "photon";
   if (!virtualLights && asked(options, "types")) {
     throw UsageError(fmt::format(
-        "--aov types takes virtual lights apart and --lights {} has none; use vpl or glossy",
+        "--aov types takes virtual lights apart and --lights {} has none; use vpl, glossy or vsl",
         options.lights));
+  }
+  if (options.lights == "vsl" && options.sphereSampling != "product" && asked(options, "types")) {
+    throw UsageError(fmt::format(
+        "--aov types needs --vsl-sampling product; {} integrates a material's lobes together",
+        options.sphereSampling));
   }
   if (options.lights == "light" && asked(options, "cost"))
     throw UsageError("--aov cost: the particles of --lights light belong to no pixel");

@@ -126,6 +126,7 @@ LightSettings lightSettings(const RenderOptions& options, int maxDepth, int set)
   settings.environmentLights = options.environmentLights;
   settings.radiusFactor = options.radius;
   settings.radiusScale = progressiveRadiusScale(set);
+  settings.sets = lightSetCount(options, virtualLightSamples(options));
   settings.sphereShading = sphereShadingOf(options);
   return settings;
 }

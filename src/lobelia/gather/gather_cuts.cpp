@@ -211,6 +211,8 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
   context.statistics.addCount("node_pairs_visited", all.evaluations);
   context.statistics.addCount("node_pairs_shaded", all.pairs);
   context.statistics.addCount("cut_lights", all.lights);
+  context.statistics.addCount("receiver_clusters", clusters.clusters.size());
+  context.statistics.addCount("clustered_receivers", clusters.order.size());
   context.statistics.addCount("nonfinite", all.nonfinite);
   context.statistics.addSeconds("traverse", static_cast<double>(all.traverseNs) * toSeconds);
   context.statistics.addSeconds("visibility", static_cast<double>(all.visibilityNs) * toSeconds);

@@ -39,6 +39,11 @@ TileParts::TileParts(const Receivers& receivers, const VirtualLights& lights, co
   if (!anyMixed_) return;
   diffuse_.strips = tile.strips;
   diffuse_.tables = tile.tables;
+  // Spherical lights: directions by the same Gaussians, but for half vectors of lobes that are gone.
+  diffuse_.receivers = tile.receivers;
+  diffuse_.gaussians = tile.gaussians;
+  diffuse_.sampling = tile.sampling;
+  for (SamplingStrip& sampling : diffuse_.sampling) sampling.halfLobe = -1;
   for (PointStrip& strip : diffuse_.strips) {
     const size_t first = diffuse_.lobes.size();
     for (size_t l = 0; l < strip.lobeCount; ++l) {

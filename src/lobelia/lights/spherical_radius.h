@@ -17,8 +17,8 @@ std::vector<float> tenthNeighbourDistances(const Scene& scene,
 Vec3f litNormal(const SurfacePoint& at, const SphericalLight& light);
 
 // Sets the radius of every light: that distance times settings.radiusFactor and radiusScale.
-// radiusFactor 0: twice that distance, less where other surface is near: light changes over lengths
-// of its distance. Counts "path_rays".
+// radiusFactor 0: twice that distance, and where the picture is the mean of several sets less where
+// other surface is near: light changes over lengths of its distance. Counts "path_rays".
 void chooseRadii(const Tracer& tracer, const LightSettings& settings, VirtualLights* lights,
                  Context& context);
 

@@ -1,0 +1,101 @@
+// `render --gather sglc` as a user types it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "lobelia/film/metrics.h"
+#include "lobelia/io/image_io.h"
+#include "support/run_program.h"
+
+namespace lobelia {
+namespace {
+
+using test::ProgramResult;
+using test::runProgram;
+using test::TemporaryFolder;
+
+constexpr const char* kScene = "render cornell --detail 0.05 --quiet ";
+
+class CutsRender : public testing::Test {
+ protected:
+  Film render(const std::string& options, const std::string& name) {
+    const std::string file = folder_ / (name + ".exr");
+    const ProgramResult r =
+        runProgram(kScene + options + " -o " + file + " --stats " + (folder_ / (name + ".json")));
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return io::readFilm(file);
+  }
+  nlohmann::json statistics(const std::string& name) {
+    return nlohmann::json::parse(test::readText(folder_ / (name + ".json")));
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(CutsRender, LargerCutsComeNearerToAllLights) {
+  const std::string base =
+      "--lights vsl --size 64x48 --spp 1 --num-lights 6000 --component indirect --seed 2 ";
+  const Film all = render(base, "all");
+  double before = 1;
+  for (const int nodes : {100, 400, 1600}) {
+    const std::string name = std::to_string(nodes);
+    const Film cut = render(base + "--gather sglc --sglc-mode unbiased --cut-size " + name, name);
+    const double error = compare(cut, all).l2;
+    EXPECT_LT(error, 0.75 * before) << nodes;
+    EXPECT_NEAR(compare(cut, all).meanRatio, 1, 0.04) << nodes;
+    before = error;
+    const nlohmann::json stats = statistics(name);
+    EXPECT_EQ(stats["gather"]["strategy"], "sglc");
+    EXPECT_EQ(stats["gather"]["mode"], "unbiased");
+    EXPECT_GT(stats["counts"]["pixels_per_pixel_node"], 8);
+    EXPECT_GT(stats["counts"]["node_pairs_visited"], 0);
+    EXPECT_NEAR(stats["counts"]["lights_per_light_node"].get<double>() * nodes,
+                stats["lights"]["spherical"].get<double>(), 0.2 * 6000);
+    EXPECT_GT(stats["seconds"]["trees"], 0);
+    EXPECT_GT(stats["seconds"]["traverse"], 0);
+  }
+  EXPECT_LT(before, 0.05);
+}
+
+TEST_F(CutsRender, SharedRaysAreFew) {
+  const std::string base =
+      "--lights glossy --clamp 1 --size 160x120 --spp 1 --num-lights 3000 --component indirect "
+      "--gather sglc --cut-size 300 ";
+  const Film own = render(base + "--sglc-mode unbiased", "own"), shared = render(base, "shared");
+  EXPECT_EQ(statistics("shared")["gather"]["mode"], "shared");
+  EXPECT_LT(3 * statistics("shared")["counts"]["rays_per_pixel"].get<double>(),
+            statistics("own")["counts"]["rays_per_pixel"].get<double>());
+  EXPECT_LT(compare(shared, own).l2, 0.12) << "shadows blur over a few pixels";
+  EXPECT_NEAR(compare(shared, own).meanRatio, 1, 0.02);
+}
+
+// What is made of a picture's parts is what the picture has there, and the options that choose them
+// go with every gather.
+TEST_F(CutsRender, GoesWithOtherOptions) {
+  const std::string base = "--size 48x40 --spp 4 --num-lights 500 --clamp 1 --gather ";
+  for (const char* part : {"--crop 10,8,40,32", "--pixels 300", "--passes 2", "--direct lights",
+                           "--max-depth 3", "--aov groups,types,cost", "--lights vpl"}) {
+    SCOPED_TRACE(part);
+    const Film all = render(base + "all " + part, "all");
+    const Film cut = render(base + "sglc --cut-size 2000 --sglc-mode unbiased " + part, "cut");
+    EXPECT_EQ(cut.alpha, all.alpha);
+    EXPECT_LT(compare(cut, all).l2, 1e-4) << "all lights are in the cut";
+  }
+}
+
+TEST_F(CutsRender, WrongUseSaysWhatWouldBeRight) {
+  const auto expectError = [&](const std::string& options, const char* mentions) {
+    const ProgramResult r =
+        runProgram(kScene + options + " --size 16x16 --spp 1 -o " + (folder_ / "x.exr"));
+    EXPECT_EQ(r.exitCode, 2) << options;
+    EXPECT_NE(r.err.find(mentions), std::string::npos) << r.err;
+  };
+  expectError("--cut-size 10", "--gather sglc");
+  expectError("--gather mrcs --sglc-mode shared", "--gather sglc");
+  expectError("--gather sglc --sglc-mode papr", "shared");
+  expectError("--gather sglc --cut-size 0", "--cut-size");
+  expectError("--gather sglc --columns 10", "--gather mrcs");
+  expectError("--lights path --gather sglc", "--lights path");
+}
+
+}  // namespace
+}  // namespace lobelia
