@@ -155,11 +155,10 @@ TEST(CheckpointFile, OfOtherSphericalLightsIsRefused) {
                            "--lights vsl --size 16x16 --spp 2 --num-lights 50 --seed 1 --radius 3 ";
   ASSERT_EQ(runProgram(made + "--checkpoint " + file + out).exitCode, 0);
   EXPECT_EQ(runProgram(made + "--resume " + file + out).exitCode, 0);
-  const std::string other = std::string(kScene) +
-                            "--lights vsl --size 16x16 --spp 2 --num-lights 50 --seed 1 ";
-  for (const std::string& change :
-       {other + "--radius 4", made + "--vsl-indicator cosine", made + "--vsl-sampling cone",
-        made + "--vsl-samples 4"}) {
+  const std::string other =
+      std::string(kScene) + "--lights vsl --size 16x16 --spp 2 --num-lights 50 --seed 1 ";
+  for (const std::string& change : {other + "--radius 4", made + "--vsl-indicator cosine",
+                                    made + "--vsl-sampling cone", made + "--vsl-samples 4"}) {
     const ProgramResult r = runProgram(change + " --resume " + file + out);
     EXPECT_EQ(r.exitCode, 3) << change << "\n" << r.err;
     EXPECT_NE(r.err.find("(now "), std::string::npos) << r.err;

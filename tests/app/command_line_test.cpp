@@ -61,8 +61,8 @@ TEST(CommandLine, FileSizeLimitsLeaveNothing) {
 // Every second is booked once: stages do not add up to more than the whole.
 TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
   const TemporaryFolder folder;
-  for (const char* method :
-       {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs", "vsl --gather sglc", "vpl --compensate", "photon"}) {
+  for (const char* method : {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs",
+                             "vsl --gather sglc", "vpl --compensate", "photon"}) {
     ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
                          " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
                   .exitCode,

@@ -68,9 +68,9 @@ class GatherCuts : public testing::Test {
     }
   }
 
-  Receivers receivers_ = randomReceivers(
-      static_cast<size_t>(kWidth * kHeight), {LobeType::lambert, LobeType::phong, LobeType::ward}, 1,
-      3);
+  Receivers receivers_ =
+      randomReceivers(static_cast<size_t>(kWidth * kHeight),
+                      {LobeType::lambert, LobeType::phong, LobeType::ward}, 1, 3);
   CutGatherSettings settings_;
   Context context_;
 };

@@ -143,7 +143,8 @@ TEST_F(Corner, CosineIndicatorDarkensThem) {
   EXPECT_LT(relative(0.02f, 1, SphereShading::Indicator::cosine), 0.65);
 }
 
-// Without a factor: twice that distance; of many sets less near the wall, where light changes quickly.
+// Without a factor: twice that distance; of many sets less near the wall, where light changes
+// quickly.
 TEST_F(Corner, AutomaticRadiusIsSmallerInCreases) {
   const std::vector<float> distances = tenthNeighbourDistances(scene_, lights_.spherical);
   chooseRadii(tracer_, {}, &lights_, context_);

@@ -75,7 +75,9 @@ TEST(LightTree, NodesHoldTheMomentsOfTheirLights) {
   for (const LightNode& node : tree.nodes()) {
     double power = 0, diffuse = 0, glossy = 0, square = 0;
     Vec3d centre, n, first;
-    const auto at = [&](uint32_t i) -> const TreeLight& { return lights[tree.light(node.first + i) - 5]; };
+    const auto at = [&](uint32_t i) -> const TreeLight& {
+      return lights[tree.light(node.first + i) - 5];
+    };
     for (uint32_t i = 0; i < node.count; ++i) {
       const double w = double{kPi} * double{at(i).diffuse} + double{at(i).glossy};
       power += w, diffuse += double{at(i).diffuse}, glossy += double{at(i).glossy};

@@ -16,12 +16,13 @@ namespace lobelia::app {
 namespace {
 
 constexpr const char* kKind = "checkpoint";
-constexpr uint32_t kFileVersion = 1;
+constexpr uint32_t kFileVersion = 2;
 constexpr const char* kFirstBad = "first_nonfinite_pixel";  // a value among the counters
 constexpr const char* kCounters[] = {
-    "path_rays", "shadow_rays",        "nonfinite",         "light_particles",     "lights_dropped",
-    "paths_cut", "node_pairs_visited", "node_pairs_shaded", "specular_connections",
-    "cut_lights", "receiver_clusters", "clustered_receivers"};
+    "path_rays",          "shadow_rays",       "nonfinite",
+    "light_particles",    "lights_dropped",    "paths_cut",
+    "node_pairs_visited", "node_pairs_shaded", "specular_connections",
+    "cut_lights",         "receiver_clusters", "clustered_receivers"};
 
 constexpr int64_t kSaveTimes = 10;  // between two saves passes so often the time of one,
 constexpr int64_t kLongestWait = 60'000'000'000;  // nanoseconds; but no longer than this

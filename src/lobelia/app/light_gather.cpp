@@ -51,8 +51,8 @@ LightGather::LightGather(const Tracer& tracer, const BandPlan& plan, int set, in
 }
 
 LightGather::Light LightGather::gather(const Receivers& run,
-                                       const std::optional<GatherParts>& wanted,
-                                       uint32_t onlyPixel, Context& context) const {
+                                       const std::optional<GatherParts>& wanted, uint32_t onlyPixel,
+                                       Context& context) const {
   Light light;
   light.direct.resize(run.points.size());
   light.indirect.resize(run.points.size());

@@ -24,7 +24,8 @@ Layer* find(Film& film, const std::string& name) {
 }  // namespace
 
 const std::vector<std::string>& typeLayers() {
-  static const std::vector<std::string> names{"od", "os", "nd", "ns", "dd", "ds", "sd", "ss", "vd", "vs"};
+  static const std::vector<std::string> names{"od", "os", "nd", "ns", "dd",
+                                              "ds", "sd", "ss", "vd", "vs"};
   static_assert(GatherParts::kTypes == 10);
   return names;
 }

@@ -116,7 +116,8 @@ void requireReduction(const RenderOptions& options) {
 
 size_t gatheredLights(size_t lights, const RenderOptions& options) {
   if (options.gather == "sglc")
-    return std::min(lights, 4 * (options.cutSize > 0 ? options.cutSize : gather::CutSettings().nodes));
+    return std::min(lights,
+                    4 * (options.cutSize > 0 ? options.cutSize : gather::CutSettings().nodes));
   if (!reduces(options)) return lights;
   return std::min(lights, options.columns > 0 ? options.columns : kDefaultMostColumns);
 }

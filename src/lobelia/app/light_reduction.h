@@ -20,8 +20,8 @@ struct ReductionReport {
 void requireReduction(const RenderOptions& options);
 // Lights of a set at most that receivers gather.
 size_t gatheredLights(size_t lights, const RenderOptions& options);
-// The same for every run of the program. When cancelled, what it returns is of no use and the report
-// stays as it was.
+// The same for every run of the program. When cancelled, what it returns is of no use and the
+// report stays as it was.
 LightParts reduceParts(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                        const BandPlan& plan, int set, LightParts parts,
                        const RenderOptions& options, ReductionReport* report, Context& context);

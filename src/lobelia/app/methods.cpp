@@ -33,7 +33,8 @@ const std::vector<GatherStrategy>& gatherStrategies() {
       {"mrcs",
        "matrix row-column sampling: few lights stand for all, chosen by a sample of pixels"},
       {"sglc",
-       "shared stochastic cuts: neighbouring receivers share lights drawn by a cut of a light tree"},
+       "shared stochastic cuts: neighbouring receivers share lights drawn by a cut of a light "
+       "tree"},
   };
   return strategies;
 }

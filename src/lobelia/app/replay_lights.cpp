@@ -176,9 +176,9 @@ class LightReplay {
         }
         return true;
       };
-      const auto addClass = [&, source = source, part = part](
-                                const char* kind, auto array, const std::vector<uint32_t>* ends,
-                                auto arrayEnds) {
+      const auto addClass = [&, source = source, part = part](const char* kind, auto array,
+                                                              const std::vector<uint32_t>* ends,
+                                                              auto arrayEnds) {
         eachLight(*part, array, ends, arrayEnds, reaches, [&](size_t i, const VirtualLights& one) {
           ++all;
           Rgb value;

@@ -34,9 +34,9 @@ Json secondsJson(const Statistics& statistics) {
 // Of --gather sglc: lights that a drawn one stands for, receivers that share it. Else 1 each.
 double lightsPerNode(const VirtualLightReport& report, const Statistics& s) {
   if (s.count("cut_lights") == 0) return report.lights.total > 0 ? 1 : 0;
-  return ratio(static_cast<double>(report.lights.total) *
-                   static_cast<double>(s.count("receiver_clusters")),
-               static_cast<double>(s.count("cut_lights")));
+  return ratio(
+      static_cast<double>(report.lights.total) * static_cast<double>(s.count("receiver_clusters")),
+      static_cast<double>(s.count("cut_lights")));
 }
 double pointsPerCluster(const VirtualLightReport& report, const Statistics& s) {
   if (s.count("receiver_clusters") == 0) return report.receiverPoints > 0 ? 1 : 0;
@@ -99,8 +99,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"rays_per_pixel", ratio(shadowRays, static_cast<double>(pixels))},
                     {"node_pairs_visited", s.count("node_pairs_visited")},
                     {"node_pairs_shaded", s.count("node_pairs_shaded")},
-                    {"cut_nodes_per_pixel",
-                     ratio(static_cast<double>(s.count("cut_lights")), static_cast<double>(pixels))},
+                    {"cut_nodes_per_pixel", ratio(static_cast<double>(s.count("cut_lights")),
+                                                  static_cast<double>(pixels))},
                     {"lights_per_light_node", lightsPerNode(report, s)},
                     {"pixels_per_pixel_node", pointsPerCluster(report, s)},
                     {"specular_connections", s.count("specular_connections")},

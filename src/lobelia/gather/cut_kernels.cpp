@@ -18,9 +18,7 @@ using trees::LightNode;
 using trees::LightTree;
 
 // [x]+ where x is known to spread by about sqrt(spread).
-HWY_INLINE Vf smoothPositive(Vf x, Vf spread) {
-  return Vf(0.5f) * (x + sqrt(x * x + spread));
-}
+HWY_INLINE Vf smoothPositive(Vf x, Vf spread) { return Vf(0.5f) * (x + sqrt(x * x + spread)); }
 
 HWY_INLINE Vf squaredDistance(V3<Vf> a, V3<Vf> b) {
   const V3<Vf> d = a - b;
@@ -29,8 +27,9 @@ HWY_INLINE Vf squaredDistance(V3<Vf> a, V3<Vf> b) {
 
 // What a node contributes to the points of a strip, roughly: radiant intensity times reflectance
 // over squared distance, both ends' lobes widened by the angle at which the node's lights appear;
-// the root of the sum of squares over the points, each with its weight. That is what the probability of a light that all points share should be in proportion to. 0 only where
-// nothing is contributed.
+// the root of the sum of squares over the points, each with its weight. That is what the
+// probability of a light that all points share should be in proportion to. 0 only where nothing is
+// contributed.
 class Importance {
  public:
   Importance(const g::CutReceivers& receivers, std::span<const LightTree> trees, float floor)
@@ -58,8 +57,7 @@ class Importance {
       total += value * value;
       weighted += value * value * variance;
     }
-    if (priority != nullptr)
-      *priority = std::sqrt(hn::GetLane(hn::SumOfLanes(Df(), weighted.v)));
+    if (priority != nullptr) *priority = std::sqrt(hn::GetLane(hn::SumOfLanes(Df(), weighted.v)));
     return std::sqrt(hn::GetLane(hn::SumOfLanes(Df(), total.v)));
   }
   size_t evaluations() const { return evaluations_; }
@@ -86,8 +84,8 @@ class Importance {
     // Cosine lobes of both ends.
     const Vf c = dot(n, w), spread = Vf(0.25f) * wide;
     const Vf diffuse = Vf::load(sampling_.diffuse + lane);
-    const Vf reflected = diffuse * (above * smoothPositive(c, spread) +
-                                    below * smoothPositive(Vf(0.f) - c, spread));
+    const Vf reflected =
+        diffuse * (above * smoothPositive(c, spread) + below * smoothPositive(Vf(0.f) - c, spread));
     Vf leaving(0.f);
     if (node.diffuse > 0) {
       const Vf disagreement = Vf(1.f) - Vf(dot(node.n, node.n)) * (Vf(1.f) - wide);
@@ -149,8 +147,8 @@ class Importance {
 
 using Entry = g::CutScratch::Entry;
 
-// Splits the node of the highest priority until the cut is as large as it may be. Afterwards `done` has the
-// cut. Nodes that contribute nothing are left out.
+// Splits the node of the highest priority until the cut is as large as it may be. Afterwards `done`
+// has the cut. Nodes that contribute nothing are left out.
 void growCut(std::span<const LightTree> trees, size_t most, Importance* importance,
              g::CutScratch* scratch) {
   std::vector<Entry>&heap = scratch->heap, &done = scratch->done;
@@ -246,7 +244,8 @@ size_t keepVisibleByOneOf(const g::Tile& tile, const g::LightBlock& block, const
     pairs->at(l, 0) = 0;
     if (bits == 0) continue;
     const uint64_t random = hashCombine(seed, l) >> 32;
-    uint32_t skip = static_cast<uint32_t>(random * static_cast<uint64_t>(__builtin_popcount(bits)) >> 32);
+    uint32_t skip =
+        static_cast<uint32_t>(random * static_cast<uint64_t>(__builtin_popcount(bits)) >> 32);
     uint32_t rest = bits;
     for (; skip > 0; --skip) rest &= rest - 1;
     pairs->at(l, 0) = static_cast<uint16_t>(rest & (~rest + 1));

@@ -1,5 +1,5 @@
-// Lights for a cluster of receivers, from a cut of the light tree: stratified by the cut, drawn below
-// its nodes (docs/methods.md, "Shared stochastic cuts").
+// Lights for a cluster of receivers, from a cut of the light trees: stratified by the cut, drawn
+// below its nodes (gather_cuts.h).
 #pragma once
 
 #include <span>

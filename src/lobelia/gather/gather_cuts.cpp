@@ -62,8 +62,8 @@ class LightCuts::ClusterGather {
       if (tile.strips[0].active >> lane & 1)
         receivers.weight[lane] =
             luminance(clusters_.receivers.points[tile.strips[0].point[lane]].weight);
-    tally->evaluations += drawCutLights(receivers, cuts_.trees_, cuts_.settings_.cut, seed,
-                                        &scratch_, &drawn_);
+    tally->evaluations +=
+        drawCutLights(receivers, cuts_.trees_, cuts_.settings_.cut, seed, &scratch_, &drawn_);
     tally->lights += drawn_.size();
     tally->traverseNs += nanosecondsNow() - start;
 
@@ -84,8 +84,8 @@ class LightCuts::ClusterGather {
   }
 
  private:
-  void addClass(const Tile& tile, LightClass lightClass, bool shared, uint64_t seed,
-                TileSums* sums, TileParts* parts, Tally* tally) {
+  void addClass(const Tile& tile, LightClass lightClass, bool shared, uint64_t seed, TileSums* sums,
+                TileParts* parts, Tally* tally) {
     uint32_t indices[kBlockLights];
     float scale[kBlockLights];
     size_t count = 0;

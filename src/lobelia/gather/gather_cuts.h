@@ -1,10 +1,16 @@
-// Shared stochastic cuts: a gather strategy for very many lights (docs/methods.md).
+// Shared stochastic cuts: a gather strategy for very many lights (docs/manual.md).
 //
-// A cluster of up to 16 neighbouring receivers shares a cut of the light tree, chosen by estimates
-// of what its nodes contribute. For every node one of its lights is drawn, by the same estimates;
-// over its probability it stands for the node at every receiver of the cluster, each with its own
-// reflectance. One shadow ray per light, from a receiver drawn among the cluster's, answers for
-// all of them (CutGatherSettings::shared), or every receiver traces its own.
+// A cluster of up to 16 neighbouring receivers shares a cut of the light trees, chosen by estimates
+// of what its nodes contribute and how much that varies within them. For every node one of its
+// lights is drawn, children by their estimates [Yuksel19 section 4]; over its probability it stands
+// for the node at every receiver of the cluster, each with its own reflectance. One shadow ray per
+// light, from a receiver drawn among the cluster's, answers for all of them
+// (CutGatherSettings::shared), or every receiver traces its own.
+//
+// Past [P000], whose pairs of light and pixel nodes are refined until upper bounds allow to copy one
+// representative's light to all pixels: what is drawn is unbiased for every receiver, so that
+// estimates do in the place of bounds, and only visibility is shared. Past [Yuksel19]: receivers
+// share the cut and the lights, and the cut is chosen by estimates of the standard deviation.
 #pragma once
 
 #include "lobelia/gather/cut_kernels.h"

@@ -39,9 +39,9 @@ struct LightBlock {
   int count = 0;
   uint32_t index[kBlockLights];  // of the lights in their class
   PreparedLight lights[kBlockLights];
-  std::vector<EmissionPattern> patterns;         // of the lights that have one, in their order
+  std::vector<EmissionPattern> patterns;        // of the lights that have one, in their order
   const PreparedSphere* spheres[kBlockLights];  // spherical: parallel to lights
-  std::vector<PreparedSphere> ownSpheres;        // unless they are shared
+  std::vector<PreparedSphere> ownSpheres;       // unless they are shared
   SphereShading sphereShading;
 };
 

@@ -140,7 +140,8 @@ class Maker {
     for (size_t r = 0; r < values_; ++r) share->total[r] += double{column[r]};
     const double squared = squaredLength(column, rowValues_);
     const double all = squared + squaredLength(column + rowValues_, values_ - rowValues_);
-    if (seen <= 1 || !(squared >= square(double{kLeastLength}))) share->hardlySeen += std::sqrt(squared), ++share->hardlySeenCount;
+    if (seen <= 1 || !(squared >= square(double{kLeastLength})))
+      share->hardlySeen += std::sqrt(squared), ++share->hardlySeenCount;
     out_.weight[number] = static_cast<float>(std::sqrt(squared));
     if (out_.weight[number] >= kLeastLength)
       share->least = std::min(share->least, out_.weight[number]);

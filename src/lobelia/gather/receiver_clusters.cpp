@@ -39,8 +39,7 @@ class Clusters {
     const size_t half = count > strip ? (count / 2 + strip - 1) / strip * strip : count / 2;
     const auto first = out_.order.begin() + static_cast<ptrdiff_t>(begin);
     std::nth_element(first, first + static_cast<ptrdiff_t>(half),
-                     out_.order.begin() + static_cast<ptrdiff_t>(end),
-                     [&](uint32_t a, uint32_t b) {
+                     out_.order.begin() + static_cast<ptrdiff_t>(end), [&](uint32_t a, uint32_t b) {
                        const float x = coordinate(a, widest), y = coordinate(b, widest);
                        return x != y ? x < y : a < b;
                      });

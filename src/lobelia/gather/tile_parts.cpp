@@ -39,7 +39,8 @@ TileParts::TileParts(const Receivers& receivers, const VirtualLights& lights, co
   if (!anyMixed_) return;
   diffuse_.strips = tile.strips;
   diffuse_.tables = tile.tables;
-  // Spherical lights: directions by the same Gaussians, but for half vectors of lobes that are gone.
+  // Spherical lights: directions by the same Gaussians, but for half vectors of lobes that are
+  // gone.
   diffuse_.receivers = tile.receivers;
   diffuse_.gaussians = tile.gaussians;
   diffuse_.sampling = tile.sampling;

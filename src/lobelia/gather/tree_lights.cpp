@@ -58,8 +58,8 @@ TreeLight asTreeLight(const SphericalLight& light, float specularLimit, const Sc
   lobes::Moment moment;
   for (int i = 0; i < sphere.gaussianCount; ++i) {
     const PreparedSphere::Gaussian& g = sphere.gaussians[i];
-    moment.add(lobes::momentOf(g.axis, g.sharpness,
-                               power * g.amplitude * lobes::integral(g.sharpness)));
+    moment.add(
+        lobes::momentOf(g.axis, g.sharpness, power * g.amplitude * lobes::integral(g.sharpness)));
   }
   if (moment.weight > 0) {
     const lobes::SphericalGaussian lobe = lobes::lobeOf(moment);

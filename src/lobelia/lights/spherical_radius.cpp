@@ -2,14 +2,14 @@
 // radius to the resulting search radius multiplied by a user-specified constant".
 //
 // Deviations: neighbours count only on similarly oriented surface, so that spheres do not grow over
-// the gap between two walls that both are dense with lights. Without a factor, where the paper takes
-// 4 to 12 times the distance and leaves an automatic choice as "desirable", the radius is twice the
-// distance (with the planar indicator smaller spheres have less error: docs/performance.md), and at
-// most a share of the harmonic mean distance of what the light's surface sees, which is how far
-// indirect light changes little [Ward88 section 3]: in creases, where lights are sparse, wide spheres
-// blur contact shadows. But smaller spheres have more noise, which the mean over n independent sets
-// has less of: the limit leaves n^(-1/3) of the former (of a single set all, and never less than 0.4).
-// Passes shrink the radii further.
+// the gap between two walls that both are dense with lights. Without a factor, where the paper
+// takes 4 to 12 times the distance and leaves an automatic choice as "desirable", the radius is
+// twice the distance (with the planar indicator smaller spheres have less error:
+// docs/performance.md), and at most a share of the harmonic mean distance of what the light's
+// surface sees, which is how far indirect light changes little [Ward88 section 3]: in creases,
+// where lights are sparse, wide spheres blur contact shadows. But smaller spheres have more noise,
+// which the mean over n independent sets has less of: the limit leaves n^(-1/3) of the former (of a
+// single set all, and never less than 0.4). Passes shrink the radii further.
 #include "lobelia/lights/spherical_radius.h"
 
 #include <algorithm>
@@ -25,9 +25,9 @@ namespace {
 constexpr size_t kNeighbours = 10;
 constexpr float kLeastCosine = 0.9f;
 
-// When the user names no factor: radius over the tenth neighbour's distance; limit of the radius over
-// the harmonic mean distance of other surface; the least share of the former that the limit leaves,
-// of however many sets.
+// When the user names no factor: radius over the tenth neighbour's distance; limit of the radius
+// over the harmonic mean distance of other surface; the least share of the former that the limit
+// leaves, of however many sets.
 constexpr float kAutomaticFactor = 2.f;
 constexpr float kOpenShare = 0.3f;
 constexpr float kLeastShare = 0.4f;

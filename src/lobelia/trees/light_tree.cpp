@@ -39,8 +39,8 @@ LightNode merged(const LightNode& a, const LightNode& b) {
   const float share = total > 0 ? power(b) / total : 0.5f;
   const Vec3f apart = b.centre - a.centre;
   node.centre = a.centre + apart * share;
-  node.variance = a.variance + share * (b.variance - a.variance) +
-                  share * (1 - share) * dot(apart, apart);
+  node.variance =
+      a.variance + share * (b.variance - a.variance) + share * (1 - share) * dot(apart, apart);
   node.radius = std::max(length(node.centre - a.centre) + a.radius,
                          length(node.centre - b.centre) + b.radius) *
                 1.000001f;
@@ -88,10 +88,9 @@ class Builder {
     for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
       parallelFor(level->size(), 256, [&](size_t i) {
         const Range& range = (*level)[i];
-        nodes_[range.node] =
-            range.count == 1
-                ? leafOf(lights_[order_[range.first]], range.first)
-                : merged(nodes_[range.node + 1], nodes_[range.node + 2 * (range.count / 2)]);
+        nodes_[range.node] = range.count == 1 ? leafOf(lights_[order_[range.first]], range.first)
+                                              : merged(nodes_[range.node + 1],
+                                                       nodes_[range.node + 2 * (range.count / 2)]);
       });
     }
   }

@@ -4,10 +4,10 @@
 // are, and the sum of their radiant intensity as a cosine lobe and one spherical Gaussian. Lights
 // are told by luminance.
 //
-// Deviations from [paper 000 section 4.1]: one tree for all classes (a light may have both lobes);
-// Gaussians merge by their moments, which keep energy and mean direction, where the paper's means of
-// sharpness and amplitude lose energy (docs/lobes.md); nodes are cut in the middle of their widest
-// extent, of places and directions, where the paper sorts by its metric.
+// Deviations from [P000 section 4.1]: one tree for all classes (a light may have both lobes);
+// Gaussians merge by their moments, which keep energy and mean direction, where the paper's means
+// of sharpness and amplitude lose energy (docs/lobes.md); nodes are cut in the middle of their
+// widest extent, of places and directions, where the paper sorts by its metric.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@ namespace lobelia::trees {
 // A light as the tree takes it.
 struct TreeLight {
   Vec3f p;
-  float variance = 0;   // mean square of the distance to p of what the light stands for
-  Vec3f n{};            // light leaves on this side only; 0: on all
-  float diffuse = 0;    // W/sr along n, by cosine; where n is 0, four times the mean over the sphere
+  float variance = 0;  // mean square of the distance to p of what the light stands for
+  Vec3f n{};           // light leaves on this side only; 0: on all
+  float diffuse = 0;   // W/sr along n, by cosine; where n is 0, four times the mean over the sphere
   Vec3f axis{0, 0, 1};  // of the Gaussian
   float sharpness = 0;
   float glossy = 0;  // W: integral of the Gaussian
@@ -39,8 +39,8 @@ struct LightNode {
   Vec3f axis{0, 0, 1};
   float sharpness = 0;
   float glossy = 0;
-  float radius = 0;          // all lights lie within this distance of the centre
-  uint32_t first = 0;        // its lights are LightTree::light(first + i)
+  float radius = 0;    // all lights lie within this distance of the centre
+  uint32_t first = 0;  // its lights are LightTree::light(first + i)
   uint32_t count = 0;
   bool leaf() const { return count == 1; }
 };
