@@ -46,6 +46,7 @@ LightGather::LightGather(const Tracer& tracer, const BandPlan& plan, int set, in
   for (const auto& [lights, cuts, number] : {std::tuple{&parts_.direct, &directCuts_, 0},
                                              std::tuple{&parts_.indirect, &indirectCuts_, 1}}) {
     settings.seed = hashCombine(seed, static_cast<uint64_t>(number));
+    if (number == 1 && options.component == "direct") continue;
     if (lights->size() > 0) cuts->emplace(tracer, *lights, settings, context);
   }
 }

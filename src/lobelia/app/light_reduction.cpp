@@ -37,7 +37,7 @@ MrcsSettings settingsFor(const RenderOptions& options, const BandPlan& plan) {
   return settings;
 }
 
-// By default as wide as six radii of the default factor: wider spheres overlap more already.
+// Fewer radii where the user asks for wider spheres, which overlap more already.
 float nearFieldRadii(const RenderOptions& options) {
   constexpr float kDefault = 6, kUsualFactor = 2;
   if (options.nearField >= 0) return options.nearField;

@@ -78,6 +78,7 @@ class LightReplay {
   }
   void useLights(int set, VirtualLights lights) {
     lightCount_ = lights.size();
+    lights_.reset();
     ReductionReport unused;
     LightParts parts = reduceParts(run_.tracer, run_.emitters, camera_, plan_, set,
                                    splitLights(std::move(lights)), options_, &unused, context_);

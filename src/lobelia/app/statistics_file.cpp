@@ -34,9 +34,8 @@ Json secondsJson(const Statistics& statistics) {
 // Of --gather sglc: lights that a drawn one stands for, receivers that share it. Else 1 each.
 double lightsPerNode(const VirtualLightReport& report, const Statistics& s) {
   if (s.count("cut_lights") == 0) return report.lights.total > 0 ? 1 : 0;
-  return ratio(
-      static_cast<double>(report.lights.total) * static_cast<double>(s.count("receiver_clusters")),
-      static_cast<double>(s.count("cut_lights")));
+  return ratio(static_cast<double>(s.count("clustered_lights")),
+               static_cast<double>(s.count("cut_lights")));
 }
 double pointsPerCluster(const VirtualLightReport& report, const Statistics& s) {
   if (s.count("receiver_clusters") == 0) return report.receiverPoints > 0 ? 1 : 0;

@@ -20,11 +20,6 @@ using trees::LightTree;
 // [x]+ where x is known to spread by about sqrt(spread).
 HWY_INLINE Vf smoothPositive(Vf x, Vf spread) { return Vf(0.5f) * (x + sqrt(x * x + spread)); }
 
-HWY_INLINE Vf squaredDistance(V3<Vf> a, V3<Vf> b) {
-  const V3<Vf> d = a - b;
-  return dot(d, d);
-}
-
 // What a node contributes to the points of a strip, roughly: radiant intensity times reflectance
 // over squared distance, both ends' lobes widened by the angle at which the node's lights appear;
 // the root of the sum of squares over the points, each with its weight. That is what the
@@ -45,7 +40,7 @@ class Importance {
         total += at(tree.nodes()[0], lane, &unused);
     }
     const float sum = hn::GetLane(hn::SumOfLanes(Df(), total.v));
-    if (sum > 1e-37f) scale_ = 1 / sum;
+    if (sum > 0 && 1 / sum < kInfinityF) scale_ = 1 / sum;
   }
 
   // priority: the same times the relative deviation of what the node's lights contribute, roughly.
@@ -133,7 +128,9 @@ class Importance {
     const Vf slopes = slope / max(total, Vf(1e-30f));
     *relativeVariance = min(Vf(kLeastVariance) + wide * (Vf(1.f) + slopes), Vf(1.f));
     const Vf weight = Vf::load(receivers_.weight + lane) * Vf(scale_);
-    return select(faces, weight * total * inverse, Vf(0.f));
+    // Squares neither vanish nor overflow.
+    const Vf value = min(max(weight * total * inverse, Vf(1e-18f)), Vf(1e18f));
+    return select(faces & (weight > Vf(0.f)), value, Vf(0.f));
   }
 
   static constexpr float kLeastVariance = 0.02f;  // of visibility, and where the estimate is wrong

@@ -13,8 +13,9 @@ namespace lobelia::gather {
 
 struct CutSettings {
   size_t nodes = 1024;  // of a cluster's cut, at most
-  // The estimate of a node's contribution has at least this share of what it would be at the peaks
-  // of both ends' lobes: where their shapes are told wrongly, what is drawn too rarely flares.
+  // The estimate of a node's contribution has at least this share for either end of what it would
+  // be at the peak of that end's lobes (the node's are merged ones): where shapes are told wrongly,
+  // what is drawn too rarely flares.
   float floor = 0.01f;
 };
 
@@ -30,8 +31,7 @@ struct CutReceivers {
   alignas(64) float weight[kStrip];
 };
 
-class CutScratch {
- public:
+struct CutScratch {
   struct Entry {
     float priority;
     uint32_t tree, node;

@@ -20,6 +20,11 @@ HWY_INLINE V3<Vf> load(const g::StripV3& v, size_t lane) {
 }
 HWY_INLINE V3<Vf> broadcast(Vec3f v) { return {Vf(v.x), Vf(v.y), Vf(v.z)}; }
 
+HWY_INLINE Vf squaredDistance(V3<Vf> a, V3<Vf> b) {
+  const V3<Vf> d = a - b;
+  return dot(d, d);
+}
+
 // From the points to the light, not normalised except for directional lights.
 template <g::LightClass kClass>
 HWY_INLINE V3<Vf> toLight(const g::PreparedLight& light, V3<Vf> p) {

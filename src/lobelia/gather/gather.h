@@ -22,6 +22,9 @@ struct GatherSettings {
   uint32_t onlyPixel = kAllPixels;
 };
 
+// Is the pixel (or any: kAllPixels) that of a point in [begin, end)?
+bool holdsPixel(const Receivers& receivers, size_t begin, size_t end, uint32_t pixel);
+
 // Parts of what is gathered, when asked for. The whole sum is computed all the same, to the same
 // bits; parts cost their shading once more, no rays.
 struct GatherParts {

@@ -142,14 +142,14 @@ size_t tilePoints(size_t points) {
   return size;
 }
 
-bool wanted(const Receivers& receivers, size_t begin, size_t end, const GatherSettings& settings) {
-  if (settings.onlyPixel == GatherSettings::kAllPixels) return true;
+}  // namespace
+
+bool holdsPixel(const Receivers& receivers, size_t begin, size_t end, uint32_t pixel) {
+  if (pixel == GatherSettings::kAllPixels) return true;
   return std::any_of(receivers.points.begin() + static_cast<ptrdiff_t>(begin),
                      receivers.points.begin() + static_cast<ptrdiff_t>(end),
-                     [&](const ReceiverPoint& r) { return r.pixel == settings.onlyPixel; });
+                     [&](const ReceiverPoint& r) { return r.pixel == pixel; });
 }
-
-}  // namespace
 
 void GatherParts::reset(size_t points) {
   groups.assign(groupCount * points, Rgb{});
@@ -173,7 +173,8 @@ void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLi
   std::mutex badMutex;
   parallelFor(tiles, 1, [&](size_t i) {
     if (context.cancelled()) return;
-    if (!wanted(receivers, i * size, std::min(points, (i + 1) * size), settings)) return;
+    if (!holdsPixel(receivers, i * size, std::min(points, (i + 1) * size), settings.onlyPixel))
+      return;
     Tally tally;
     tileGather.run(i * size, std::min(points, (i + 1) * size), radiance, &tally);
     rays += tally.rays;

@@ -22,14 +22,6 @@ uint64_t keyOf(const ReceiverPoint& point, uint64_t seed) {
   return key;
 }
 
-bool wanted(const ReceiverClusters& all, const ReceiverClusters::Cluster& cluster,
-            uint32_t onlyPixel) {
-  if (onlyPixel == GatherSettings::kAllPixels) return true;
-  const std::vector<ReceiverPoint>& points = all.receivers.points;
-  return std::any_of(points.begin() + cluster.begin, points.begin() + cluster.end,
-                     [&](const ReceiverPoint& point) { return point.pixel == onlyPixel; });
-}
-
 // Layers of values, [layer][point]: from points order[i] to points i of `count`.
 template <class T>
 void reorder(const std::vector<T>& from, const std::vector<uint32_t>& order, size_t count,
@@ -91,8 +83,9 @@ class LightCuts::ClusterGather {
     size_t count = 0;
     const auto flush = [&] {
       if (count == 0) return;
-      addBlock(tile, lightClass, {indices, count}, scale, shared, hashCombine(seed, indices[0]),
-               sums, parts, tally);
+      addBlock(tile, lightClass, {indices, count}, scale, shared,
+               hashCombine(hashCombine(seed, static_cast<uint64_t>(lightClass)), indices[0]), sums,
+               parts, tally);
       count = 0;
     };
     for (const CutLight& drawn : drawn_) {
@@ -154,16 +147,12 @@ LightCuts::LightCuts(const Tracer& tracer, const VirtualLights& lights,
     : tracer_(tracer), lights_(lights), settings_(settings), numbers_(lights, settings.gather) {
   const StageTimer timer(context, "trees");
   const Bounds3f bounds = tracer.bounds();
-  const auto inputs = treeLights(lights, numbers_, tracer.scene(), bounds);
-  for (size_t t = 0; t < kLightTrees; ++t)
+  auto inputs = treeLights(lights, numbers_, tracer.scene(), bounds);
+  for (size_t t = 0; t < kLightTrees && !context.cancelled(); ++t) {
     trees_[t] = trees::LightTree(inputs[t].lights, inputs[t].numbers, 2 * bounds.radius());
-  spheres_ = prepareSpheres(lights, tracer.scene());
-}
-
-size_t LightCuts::bytes() const {
-  size_t sum = spheres_.size() * sizeof(PreparedSphere);
-  for (const trees::LightTree& tree : trees_) sum += tree.bytes();
-  return sum;
+    inputs[t] = {};
+  }
+  if (!context.cancelled()) spheres_ = prepareSpheres(lights, tracer.scene());
 }
 
 void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
@@ -171,8 +160,11 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
   const size_t points = receivers.points.size();
   if (radiance.size() != points)
     throw std::invalid_argument("LightCuts::gather: one radiance value per receiver point");
-  const ReceiverClusters clusters =
-      clusterReceivers(receivers, 2 * tracer_.bounds().radius(), settings_.width);
+  ReceiverClusters clusters;
+  {
+    const StageTimer timer(context, "traverse");
+    clusters = clusterReceivers(receivers, 2 * tracer_.bounds().radius(), settings_.width);
+  }
   std::optional<GatherParts> ordered;  // by the clusters' order
   if (parts != nullptr) {
     ordered = *parts;
@@ -187,7 +179,8 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
     Tally tally;
     for (size_t i = begin; i < end; ++i) {
       if (context.cancelled()) return;
-      if (!wanted(clusters, clusters.clusters[i], onlyPixel)) continue;
+      const auto& [first, last, compact] = clusters.clusters[i];
+      if (!holdsPixel(clusters.receivers, first, last, onlyPixel)) continue;
       gather.run(clusters.clusters[i], radiance, &tally);
     }
     const std::lock_guard lock(mutex);
@@ -212,6 +205,7 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
   context.statistics.addCount("node_pairs_shaded", all.pairs);
   context.statistics.addCount("cut_lights", all.lights);
   context.statistics.addCount("receiver_clusters", clusters.clusters.size());
+  context.statistics.addCount("clustered_lights", numbers_.count() * clusters.clusters.size());
   context.statistics.addCount("clustered_receivers", clusters.order.size());
   context.statistics.addCount("nonfinite", all.nonfinite);
   context.statistics.addSeconds("traverse", static_cast<double>(all.traverseNs) * toSeconds);

@@ -7,8 +7,8 @@
 // light, from a receiver drawn among the cluster's, answers for all of them
 // (CutGatherSettings::shared), or every receiver traces its own.
 //
-// Past [P000], whose pairs of light and pixel nodes are refined until upper bounds allow to copy one
-// representative's light to all pixels: what is drawn is unbiased for every receiver, so that
+// Past [P000], whose pairs of light and pixel nodes are refined until upper bounds allow to copy
+// one representative's light to all pixels: what is drawn is unbiased for every receiver, so that
 // estimates do in the place of bounds, and only visibility is shared. Past [Yuksel19]: receivers
 // share the cut and the lights, and the cut is chosen by estimates of the standard deviation.
 #pragma once
@@ -23,7 +23,7 @@ struct CutGatherSettings {
   GatherSettings gather;
   CutSettings cut;
   bool shared = true;  // visibility, in clusters of neighbouring pixels
-  int width = 0;       // pixels in a row of the data window
+  int width = 1;       // pixels in a row of the data window
   uint64_t seed = 0;
 };
 
@@ -40,7 +40,6 @@ class LightCuts {
   // choosing lights to "traverse". onlyPixel: GatherSettings::onlyPixel, for clusters.
   void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
               Context& context, GatherParts* parts = nullptr) const;
-  size_t bytes() const;
 
  private:
   struct Tally;

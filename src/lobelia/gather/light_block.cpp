@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/scene/shading.h"
@@ -196,6 +197,7 @@ void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightCl
 void prepareChosen(const VirtualLights& lights, const Scene& scene, LightClass lightClass,
                    std::span<const uint32_t> indices, LightBlock* block,
                    const std::vector<PreparedSphere>& shared, uint32_t wanted) {
+  if (indices.size() > kBlockLights) throw std::invalid_argument("prepareChosen: too many");
   block->patterns.clear();
   block->lightClass = lightClass;
   block->count = static_cast<int>(indices.size());

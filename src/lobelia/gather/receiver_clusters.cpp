@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 
 namespace lobelia::gather {
 namespace {
@@ -10,6 +11,9 @@ namespace {
 constexpr float kNormalShare = 0.05f;
 // Pixels of a compact cluster lie in a square of this side, those of others in one twice as wide.
 constexpr uint32_t kCompactSide = 32;
+// And its points lie within this share of the scene's size, and their normals agree.
+constexpr float kCompactShare = 0.02f;
+constexpr float kCompactCosine = 0.7f;
 
 class Clusters {
  public:
@@ -25,7 +29,7 @@ class Clusters {
     const size_t strip = static_cast<size_t>(kStrip);
     const uint32_t side = count > strip ? 0 : sideOf(begin, end);
     if (count <= strip && (count == 1 || side <= 2 * kCompactSide))
-      return add(begin, end, side <= kCompactSide);
+      return add(begin, end, side <= kCompactSide && near(begin, end));
     int widest = 0;
     float extent = -1;
     for (int dim = 0; dim < 6; ++dim) {
@@ -63,6 +67,17 @@ class Clusters {
     return std::max(x1 - x0, y1 - y0) + 1;
   }
 
+  bool near(size_t begin, size_t end) const {
+    Bounds3f bounds;
+    const Vec3f n = points_[out_.order[begin]].frame.n;
+    for (size_t i = begin; i < end; ++i) {
+      const ReceiverPoint& point = points_[out_.order[i]];
+      bounds.add(point.p);
+      if (dot(point.frame.n, n) < kCompactCosine) return false;
+    }
+    return length(bounds.extent()) * inverseScale_ * kNormalShare < kCompactShare;
+  }
+
   // In the order in which they were given, so that tiles do not depend on how they were cut.
   void add(size_t begin, size_t end, bool compact) {
     std::sort(out_.order.begin() + static_cast<ptrdiff_t>(begin),
@@ -79,6 +94,7 @@ class Clusters {
 }  // namespace
 
 ReceiverClusters clusterReceivers(const Receivers& receivers, float scale, int width) {
+  if (width < 1) throw std::invalid_argument("clusterReceivers: width");
   ReceiverClusters out;
   std::map<LobeKinds, std::vector<uint32_t>> kinds;
   for (size_t i = 0; i < receivers.points.size(); ++i)

@@ -12,12 +12,12 @@ struct ReceiverClusters {
   std::vector<uint32_t> order;  // points without lobes are left out
   struct Cluster {
     uint32_t begin = 0, end = 0;  // of the points
-    bool compact = false;         // its pixels are near neighbours
+    bool compact = false;         // near neighbours in the picture and in the scene, turned alike
   };
   std::vector<Cluster> clusters;
 };
 
-// scale: size of the scene; width: pixels in a row of the data window.
+// scale: size of the scene; width: pixels in a row of the data window, at least 1.
 ReceiverClusters clusterReceivers(const Receivers& receivers, float scale, int width);
 
 }  // namespace lobelia::gather

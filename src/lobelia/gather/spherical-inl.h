@@ -33,10 +33,6 @@ HWY_INLINE Vf fraction(Vf x) { return x - floor(x); }
 HWY_INLINE V3<Vf> select(Mf m, V3<Vf> a, V3<Vf> b) {
   return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
 }
-HWY_INLINE Vf squaredDistance(V3<Vf> a, V3<Vf> b) {
-  const V3<Vf> d = a - b;
-  return dot(d, d);
-}
 
 // Direction at an angle to an axis and at an azimuth around it [Duff17].
 HWY_INLINE V3<Vf> aroundAxis(V3<Vf> axis, Vf oneMinusCos, Vf cosPhi, Vf sinPhi) {

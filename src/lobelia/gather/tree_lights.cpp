@@ -24,6 +24,7 @@ TreeLight asTreeLight(const DirectionalLight& light, const Bounds3f& bounds) {
   const float distance = kFar * std::max(bounds.radius(), 1e-6f);
   TreeLight out;
   out.p = bounds.centre() + light.direction * distance;
+  out.radius = 1.001f * bounds.radius();  // from wherever in the scene it is seen
   out.diffuse = 4 * luminance(light.irradiance) * distance * distance;
   return out;
 }

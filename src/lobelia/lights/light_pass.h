@@ -30,8 +30,8 @@ struct LightSettings {
   bool everyGaussian = false;  // true: all of them become lights; false: one is drawn per vertex
   // Spherical lights: radius over the distance of the tenth neighbour; 0: chosen automatically
   // (spherical_radius.h). radiusScale multiplies either (progressive rendering).
-  int sets = 1;  // whose mean the picture is: radii that nobody named follow it
   float radiusFactor = 0, radiusScale = 1;
+  int sets = 1;  // whose mean the picture is: radii that nobody named follow it
   SphereShading sphereShading;
 };
 

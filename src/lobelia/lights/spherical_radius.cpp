@@ -51,7 +51,7 @@ SurfacePoint surfaceOf(const Scene& scene, const SphericalLight& light) {
 
 // Harmonic mean distance of what a light's surface sees on the lit side, by a packet of rays in
 // proportion to the cosine.
-float openness(const Tracer& tracer, const SphericalLight& light) {
+float harmonicMeanDistance(const Tracer& tracer, const SphericalLight& light) {
   constexpr int kRays = ShadowPacket::kSize;
   constexpr float kGoldenAngle = 2.39996323f;
   const SurfacePoint at = surfaceOf(tracer.scene(), light);
@@ -166,7 +166,7 @@ void chooseRadii(const Tracer& tracer, const LightSettings& settings, VirtualLig
   parallelFor(all.size(), 256, [&](size_t i) {
     float radius = distances[i] * (automatic ? kAutomaticFactor : settings.radiusFactor);
     if (automatic && least < 1) {
-      const float limit = kOpenShare * openness(tracer, all[i]);
+      const float limit = kOpenShare * harmonicMeanDistance(tracer, all[i]);
       radius = std::min(radius, std::max(limit, least * radius));
     }
     all[i].radius = radius * settings.radiusScale;

@@ -20,6 +20,7 @@ LightNode leafOf(const TreeLight& light, uint32_t place) {
   LightNode node;
   node.centre = light.p;
   node.variance = light.variance;
+  node.radius = light.radius;
   node.n = light.n;
   node.diffuse = light.diffuse;
   node.axis = light.axis;

@@ -22,6 +22,7 @@ namespace lobelia::trees {
 struct TreeLight {
   Vec3f p;
   float variance = 0;  // mean square of the distance to p of what the light stands for
+  float radius = 0;    // within which of p it may seem to be
   Vec3f n{};           // light leaves on this side only; 0: on all
   float diffuse = 0;   // W/sr along n, by cosine; where n is 0, four times the mean over the sphere
   Vec3f axis{0, 0, 1};  // of the Gaussian
@@ -61,9 +62,6 @@ class LightTree {
   uint32_t right(uint32_t i) const { return i + 2 * (nodes_[i].count / 2); }
   // Number of the light at a place of the leaves' order.
   uint32_t light(uint32_t place) const { return lights_[place]; }
-  size_t bytes() const {
-    return nodes_.size() * sizeof(LightNode) + lights_.size() * sizeof(uint32_t);
-  }
 
  private:
   std::vector<LightNode> nodes_;
