@@ -58,7 +58,8 @@ TEST_F(CutsRender, LargerCutsComeNearerToAllLights) {
 
 TEST_F(CutsRender, SharedRaysAreFew) {
   const std::string base =
-      "--lights glossy --clamp 1 --size 160x120 --spp 1 --num-lights 3000 --component indirect "
+      "--lights glossy --clamp 1 --size 640x480 --crop 240,180,400,300 --spp 1 --num-lights 3000 "
+      "--component indirect "
       "--gather sglc --cut-size 300 ";
   const Film own = render(base + "--sglc-mode unbiased", "own"), shared = render(base, "shared");
   EXPECT_EQ(statistics("shared")["gather"]["mode"], "shared");
