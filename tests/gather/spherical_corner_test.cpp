@@ -146,7 +146,7 @@ TEST_F(Corner, CosineIndicatorDarkensThem) {
 // Without a factor: twice that distance; of many sets less near the wall, where light changes
 // quickly.
 TEST_F(Corner, AutomaticRadiusIsSmallerInCreases) {
-  const std::vector<float> distances = tenthNeighbourDistances(scene_, lights_.spherical);
+  const std::vector<float> distances = tenthNeighbourDistances(tracer_, lights_.spherical);
   chooseRadii(tracer_, {}, &lights_, context_);
   for (size_t i = 0; i < distances.size(); ++i)
     EXPECT_EQ(lights_.spherical[i].radius, 2 * distances[i]) << "of one set";
@@ -167,8 +167,23 @@ TEST_F(Corner, AutomaticRadiusIsSmallerInCreases) {
   EXPECT_EQ(context_.statistics.count("path_rays"), 16 * lights_.spherical.size());
 }
 
+// A light without any neighbour, and lights at one place, shine from some area, too.
+TEST_F(Corner, LonelyLightsHaveARadius) {
+  const SphericalLight light = lights_.spherical[0];
+  for (const size_t count : {1, 2, 20}) {
+    lights_.spherical.assign(count, light);
+    lights_.sphericalDepthEnds = {0, static_cast<uint32_t>(count)};
+    chooseRadii(tracer_, {}, &lights_, context_);
+    const float size = tracer_.bounds().radius();
+    for (const SphericalLight& l : lights_.spherical) {
+      EXPECT_GT(l.radius, 1e-6f * size) << count;
+      EXPECT_LT(l.radius, size) << count;
+    }
+  }
+}
+
 TEST_F(Corner, RadiusIsTheTenthNeighboursDistance) {
-  const std::vector<float> distances = tenthNeighbourDistances(scene_, lights_.spherical);
+  const std::vector<float> distances = tenthNeighbourDistances(tracer_, lights_.spherical);
   double mean = 0;
   for (size_t i = 0; i < distances.size(); i += 37) {
     std::vector<float> all;

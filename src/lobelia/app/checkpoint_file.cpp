@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "lobelia/app/light_gather.h"
 #include "lobelia/base/file.h"
 #include "lobelia/gather/simd_target.h"
 #include "lobelia/version.h"
@@ -22,7 +23,8 @@ constexpr const char* kCounters[] = {
     "path_rays",          "shadow_rays",       "nonfinite",
     "light_particles",    "lights_dropped",    "paths_cut",
     "node_pairs_visited", "node_pairs_shaded", "specular_connections",
-    "cut_lights",         "receiver_clusters", "clustered_receivers", "clustered_lights"};
+    "cut_lights",         "receiver_clusters", "clustered_receivers",
+    "clustered_lights"};
 
 constexpr int64_t kSaveTimes = 10;  // between two saves passes so often the time of one,
 constexpr int64_t kLongestWait = 60'000'000'000;  // nanoseconds; but no longer than this
@@ -119,8 +121,8 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--memory", std::to_string(o.memory));
   }
   if (o.gather == "sglc") {
-    s.emplace_back("--sglc-mode", o.cutMode);
-    s.emplace_back("--cut-size", std::to_string(o.cutSize));
+    s.emplace_back("--sglc-mode", cutModeOf(o));
+    s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));
   }
   if (o.lights == "vsl") {
     s.emplace_back("--radius", fmt::format("{}", o.radius));

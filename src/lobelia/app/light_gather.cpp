@@ -14,13 +14,20 @@ gather::CutGatherSettings settingsFor(const RenderOptions& options, const BandPl
                                       int width) {
   gather::CutGatherSettings settings;
   settings.gather = plan.gather;
-  if (options.cutSize > 0) settings.cut.nodes = options.cutSize;
-  settings.shared = options.cutMode != "unbiased";
+  settings.cut.nodes = cutSizeOf(options);
+  settings.shared = cutModeOf(options) == "shared";
   settings.width = width;
   return settings;
 }
 
 }  // namespace
+
+std::string cutModeOf(const RenderOptions& options) {
+  return options.cutMode.empty() ? "shared" : options.cutMode;
+}
+size_t cutSizeOf(const RenderOptions& options) {
+  return options.cutSize > 0 ? options.cutSize : gather::CutSettings().nodes;
+}
 
 void requireCuts(const RenderOptions& options) {
   if (options.gather == "sglc") {

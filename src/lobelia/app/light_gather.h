@@ -11,6 +11,10 @@ namespace lobelia::app {
 // Throws UsageError where options of sglc are given to another strategy.
 void requireCuts(const RenderOptions& options);
 
+// --sglc-mode and --cut-size, defaults filled in.
+std::string cutModeOf(const RenderOptions& options);
+size_t cutSizeOf(const RenderOptions& options);
+
 class LightGather {
  public:
   // width: of the data window. parts: as reduceParts() leaves them. When cancelled while it makes

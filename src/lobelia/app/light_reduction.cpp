@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "lobelia/app/light_gather.h"
 #include "lobelia/base/error.h"
 #include "lobelia/base/random.h"
-#include "lobelia/gather/cut_kernels.h"
 
 namespace lobelia::app {
 namespace {
@@ -115,9 +115,7 @@ void requireReduction(const RenderOptions& options) {
 }
 
 size_t gatheredLights(size_t lights, const RenderOptions& options) {
-  if (options.gather == "sglc")
-    return std::min(lights,
-                    4 * (options.cutSize > 0 ? options.cutSize : gather::CutSettings().nodes));
+  if (options.gather == "sglc") return std::min(lights, 4 * cutSizeOf(options));
   if (!reduces(options)) return lights;
   return std::min(lights, options.columns > 0 ? options.columns : kDefaultMostColumns);
 }

@@ -24,7 +24,7 @@ void requireLightFiles(const RenderOptions& options) {
                                    std::pair{"--load-lights", options.loadLights}}) {
     if (file.empty()) continue;
     if (!usesVirtualLights(options) || options.lights == "photon") {
-      throw UsageError(fmt::format("{}: --lights {} has no virtual lights; use vpl or glossy", name,
+      throw UsageError(fmt::format("{}: --lights {} has no virtual lights; use vpl, glossy or vsl", name,
                                    options.lights));
     }
     if (options.passes > 1) {

@@ -1,5 +1,7 @@
 #include "lobelia/app/render_virtual_lights.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -250,6 +252,8 @@ class VirtualLightRender {
   void finish() {
     const int samples = plan_.eye.sampleCount;
     if (at_.sample < samples) {
+      context_.info(
+          fmt::format("stopped: {} of {} samples per pixel are complete", at_.sample, samples));
       if (at_.traced != 0) {
         const auto [y0, y1] = plan_.rows(at_.band, film_);
         backup_->restore(y0, y1);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "lobelia/app/light_gather.h"
 #include "lobelia/base/file.h"
 #include "lobelia/version.h"
 
@@ -78,9 +79,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"particles", lights.particles},
                     {"sets", report.sets}};
   json["gather"] = {{"strategy", gathers ? options.gather : "none"},
-                    {"mode", options.gather == "sglc" && gathers
-                                 ? (options.cutMode.empty() ? "shared" : options.cutMode)
-                                 : ""},
+                    {"mode", options.gather == "sglc" && gathers ? cutModeOf(options) : ""},
                     {"bound", ""},
                     {"threshold", 0},
                     {"error", options.error}};
@@ -91,6 +90,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
     json["gather"]["predicted_error"] = r.error(1);
     json["gather"]["predicted_error_direct"] = r.error(0);
   }
+  if (options.gather == "sglc" && gathers) json["gather"]["cut_size"] = cutSizeOf(options);
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
   json["seconds"] = secondsJson(s);
   json["counts"] = {{"shadow_rays", s.count("shadow_rays")},

@@ -60,8 +60,8 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
                       options.passes, samples));
     }
   }
-  for (const char* name : {"--radius", "--vsl-indicator", "--vsl-sampling", "--vsl-samples",
-                           "--near-field"})
+  for (const char* name :
+       {"--radius", "--vsl-indicator", "--vsl-sampling", "--vsl-samples", "--near-field"})
     report(name, options.lights != "vsl", "only --lights vsl has spherical lights");
   report("--clamp", options.lights == "vsl" && options.clamp != "off",
          "spherical lights have no spikes to clamp");
@@ -71,6 +71,9 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
   report("--pixels-seed", options.pixels == 0, "all pixels are computed without --pixels");
   report("--checkpoint-interval", options.checkpoint.empty() && options.resume.empty(),
          "neither --checkpoint nor --resume names a file");
+  for (const char* name : {"--output", "--stats", "--aov", "--exposure", "--display",
+                           "--checkpoint", "--resume", "--save-lights", "--time-limit"})
+    report(name, !options.replay.empty(), "--replay shows one pixel and writes nothing");
   if (options.replay.empty())
     report("--exposure", !writes(options, ".png"), "no .png is written, and .exr stays linear");
   return unused;

@@ -126,8 +126,10 @@ VirtualLights reduceLights(const Tracer& tracer, const gather::Rows& rows,
   }
   report->columns = chosen.size();
   report->sketch = columns.whole.empty() ? columns.dims : 0;
-  report->error = clustering.checkError(columns);
-  report->rowError = clustering.rowError(columns);
+  if (chosen.size() < numbers.count()) {
+    report->error = clustering.checkError(columns);
+    report->rowError = clustering.rowError(columns);
+  }
   return chooseLights(lights, chosen);
 }
 

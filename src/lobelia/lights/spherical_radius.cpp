@@ -132,8 +132,9 @@ float searchDistance(const Tree& tree, const std::vector<SphericalLight>& lights
 
 }  // namespace
 
-std::vector<float> tenthNeighbourDistances(const Scene& scene,
+std::vector<float> tenthNeighbourDistances(const Tracer& tracer,
                                            const std::vector<SphericalLight>& lights) {
+  const Scene& scene = tracer.scene();
   std::vector<float> distances(lights.size());
   if (lights.empty()) return distances;
   std::vector<uint32_t> normals(lights.size());
@@ -145,11 +146,10 @@ std::vector<float> tenthNeighbourDistances(const Scene& scene,
   parallelFor(lights.size(), 256, [&](size_t i) {
     distances[i] = searchDistance(tree, lights, normals, static_cast<uint32_t>(i));
   });
-  // Lights at one and the same place, or a single one.
-  Bounds3f bounds;
-  for (const SphericalLight& light : lights) bounds.add(light.p);
-  const float least = std::max(1e-5f * bounds.radius(), 1e-20f);
-  for (float& d : distances) d = std::max(d, least);
+  // Lights at one and the same place must not shine from a point; one that is alone shines from a
+  // good part of the scene.
+  const float sceneRadius = std::max(tracer.bounds().radius(), 1e-12f);
+  for (float& d : distances) d = d > 0 ? std::max(d, 1e-5f * sceneRadius) : 0.1f * sceneRadius;
   return distances;
 }
 
@@ -160,7 +160,7 @@ Vec3f litNormal(const SurfacePoint& at, const SphericalLight& light) {
 void chooseRadii(const Tracer& tracer, const LightSettings& settings, VirtualLights* lights,
                  Context& context) {
   std::vector<SphericalLight>& all = lights->spherical;
-  const std::vector<float> distances = tenthNeighbourDistances(tracer.scene(), all);
+  const std::vector<float> distances = tenthNeighbourDistances(tracer, all);
   const bool automatic = !(settings.radiusFactor > 0);
   const float least = std::max(kLeastShare, 1 / std::cbrt(static_cast<float>(settings.sets)));
   parallelFor(all.size(), 256, [&](size_t i) {

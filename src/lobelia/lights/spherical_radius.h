@@ -9,8 +9,9 @@ namespace lobelia {
 
 // Distance of every light's tenth nearest neighbour among lights on similarly oriented surface
 // (normals on the lit side within 26 degrees), in the order of the lights; where there are fewer,
-// what the density of those there are gives. Never 0.
-std::vector<float> tenthNeighbourDistances(const Scene& scene,
+// what the density of those there are gives; where there is no other at all, a tenth of the scene's
+// radius. Never 0.
+std::vector<float> tenthNeighbourDistances(const Tracer& tracer,
                                            const std::vector<SphericalLight>& lights);
 
 // The geometric normal on the side that a light's power came from.

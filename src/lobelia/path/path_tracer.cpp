@@ -4,6 +4,9 @@
 // number of threads. Between tiles the sums can be saved, and another run goes on from them.
 #include "lobelia/path/path_tracer.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <atomic>
 
 #include "lobelia/base/checkpoints.h"
@@ -101,7 +104,11 @@ class PathPasses {
     }
     save();
     noteFirstBad();
-    return complete(settings_.spp);
+    if (complete(settings_.spp)) return true;
+    context_.info(fmt::format("stopped: {} of {} samples per pixel are complete",
+                              *std::min_element(tileSamples_.begin(), tileSamples_.end()),
+                              settings_.spp));
+    return false;
   }
 
   void write() {
