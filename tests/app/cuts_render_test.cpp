@@ -1,35 +1,11 @@
 // `render --gather sglc` as a user types it.
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
+#include "app/render_test.h"
 #include "lobelia/film/metrics.h"
-#include "lobelia/io/image_io.h"
-#include "support/run_program.h"
 
 namespace lobelia {
 namespace {
 
-using test::ProgramResult;
-using test::runProgram;
-using test::TemporaryFolder;
-
-constexpr const char* kScene = "render cornell --detail 0.05 --quiet ";
-
-class CutsRender : public testing::Test {
- protected:
-  Film render(const std::string& options, const std::string& name) {
-    const std::string file = folder_ / (name + ".exr");
-    const ProgramResult r =
-        runProgram(kScene + options + " -o " + file + " --stats " + (folder_ / (name + ".json")));
-    EXPECT_EQ(r.exitCode, 0) << r.err;
-    return io::readFilm(file);
-  }
-  nlohmann::json statistics(const std::string& name) {
-    return nlohmann::json::parse(test::readText(folder_ / (name + ".json")));
-  }
-  TemporaryFolder folder_;
-};
+using CutsRender = test::RenderTest;
 
 TEST_F(CutsRender, LargerCutsComeNearerToAllLights) {
   const std::string base =
@@ -84,12 +60,6 @@ TEST_F(CutsRender, GoesWithOtherOptions) {
 }
 
 TEST_F(CutsRender, WrongUseSaysWhatWouldBeRight) {
-  const auto expectError = [&](const std::string& options, const char* mentions) {
-    const ProgramResult r =
-        runProgram(kScene + options + " --size 16x16 --spp 1 -o " + (folder_ / "x.exr"));
-    EXPECT_EQ(r.exitCode, 2) << options;
-    EXPECT_NE(r.err.find(mentions), std::string::npos) << r.err;
-  };
   expectError("--cut-size 10", "--gather sglc");
   expectError("--gather mrcs --sglc-mode shared", "--gather sglc");
   expectError("--gather sglc --sglc-mode papr", "shared");

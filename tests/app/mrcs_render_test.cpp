@@ -1,35 +1,15 @@
 // `render --gather mrcs` as a user types it.
-#include <gtest/gtest.h>
-
 #include <cstring>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "app/render_test.h"
 #include "lobelia/film/metrics.h"
-#include "lobelia/io/image_io.h"
-#include "support/run_program.h"
 
 namespace lobelia {
 namespace {
 
-using test::ProgramResult;
-using test::runProgram;
-using test::TemporaryFolder;
-
-constexpr const char* kScene = "render cornell --detail 0.05 --quiet ";
-
-class MrcsRender : public testing::Test {
+class MrcsRender : public test::RenderTest {
  protected:
-  Film render(const std::string& options, const std::string& name) {
-    const std::string file = folder_ / (name + ".exr");
-    const ProgramResult r =
-        runProgram(kScene + options + " -o " + file + " --stats " + (folder_ / (name + ".json")));
-    EXPECT_EQ(r.exitCode, 0) << r.err;
-    return io::readFilm(file);
-  }
-  nlohmann::json statistics(const std::string& name) {
-    return nlohmann::json::parse(test::readText(folder_ / (name + ".json")));
-  }
   static double sum(const Film& film) {
     double total = 0;
     for (size_t i = 0; i < film.pixelCount(); ++i)
@@ -46,7 +26,6 @@ class MrcsRender : public testing::Test {
       }
     return std::sqrt(difference / norm);
   }
-  TemporaryFolder folder_;
 };
 
 // Errors of one draw have a heavy tail: means over a few.
@@ -134,12 +113,6 @@ TEST_F(MrcsRender, ThreadsDoNotMatter) {
 }
 
 TEST_F(MrcsRender, WrongUseSaysWhatWouldBeRight) {
-  const auto expectError = [&](const std::string& options, const char* mentions) {
-    const ProgramResult r =
-        runProgram(kScene + options + " --size 16x16 --spp 1 -o " + (folder_ / "x.exr"));
-    EXPECT_EQ(r.exitCode, 2) << options;
-    EXPECT_NE(r.err.find(mentions), std::string::npos) << r.err;
-  };
   expectError("--columns 10", "--gather mrcs");
   expectError("--gather all --error 0.1", "--gather mrcs");
   expectError("--gather mrcs --sketch 17", "multiple of 16");

@@ -3,6 +3,7 @@
 
 #include "gather/mrcs_input.h"
 #include "gather/spherical_setup.h"
+#include "gather/unbiased.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/gather/receiver_clusters.h"
 
@@ -40,32 +41,12 @@ class GatherCuts : public testing::Test {
     for (const Rgb& value : light) total += double{value.x} + double{value.y} + double{value.z};
     return total;
   }
-  // Sums over groups of receivers and the whole; each a mean over draws must equal.
-  static std::vector<double> groupSums(const std::vector<Rgb>& light) {
-    std::vector<double> sums(13, 0.0);
-    for (size_t i = 0; i < light.size(); ++i) {
-      const double value = double{light[i].x} + double{light[i].y} + double{light[i].z};
-      sums[i * 12 / light.size()] += value;
-      sums[12] += value;
-    }
-    return sums;
-  }
   void expectUnbiased(const Tracer& tracer, const VirtualLights& lights, int draws,
                       const std::vector<Rgb>& all) {
-    const std::vector<double> exact = groupSums(all);
-    std::vector<double> mean(exact.size(), 0.0), squares(exact.size(), 0.0);
-    for (int draw = 0; draw < draws; ++draw) {
-      settings_.seed = static_cast<uint64_t>(draw);
-      const std::vector<double> sums = groupSums(some(tracer, lights));
-      for (size_t g = 0; g < sums.size(); ++g)
-        mean[g] += sums[g] / draws, squares[g] += sums[g] * sums[g] / draws;
-    }
-    for (size_t g = 0; g < exact.size(); ++g) {
-      const double error = std::sqrt((squares[g] - mean[g] * mean[g]) / draws);
-      EXPECT_GT(error, 0) << "group " << g;
-      EXPECT_NEAR(mean[g], exact[g], 4 * error) << "group " << g;
-      EXPECT_LT(error, 0.1 * exact[g]) << "group " << g << ": says too little";
-    }
+    test::expectUnbiased(all, draws, [&](uint64_t draw) {
+      settings_.seed = draw;
+      return some(tracer, lights);
+    });
   }
 
   Receivers receivers_ =

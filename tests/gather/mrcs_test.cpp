@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "gather/mrcs_input.h"
+#include "gather/unbiased.h"
 #include "lobelia/base/error.h"
 #include "lobelia/base/parallel.h"
 
@@ -29,32 +30,12 @@ class Mrcs : public testing::Test {
     return reduceLights(tracer_, rowsOf(receivers_, kWidth, kHeight, rows, seed), lights_,
                         settings_, &report_, context_);
   }
-  // Sums over groups of neighbours in the array; each a mean over draws must equal.
-  static std::vector<double> groupSums(const std::vector<Rgb>& radiance) {
-    std::vector<double> sums(13, 0.0);
-    for (size_t i = 0; i < radiance.size(); ++i) {
-      const double value = double{radiance[i].x} + double{radiance[i].y} + double{radiance[i].z};
-      sums[i * 12 / radiance.size()] += value;
-      sums[12] += value;
-    }
-    return sums;
-  }
   void expectUnbiased(int draws) {
-    const std::vector<double> exact = groupSums(gather(lights_));
-    std::vector<double> mean(exact.size(), 0.0), squares(exact.size(), 0.0);
-    for (int draw = 0; draw < draws; ++draw) {
-      const VirtualLights few = reduce(static_cast<uint64_t>(draw));
-      ASSERT_LE(few.size(), settings_.columns);
-      const std::vector<double> sums = groupSums(gather(few));
-      for (size_t g = 0; g < sums.size(); ++g)
-        mean[g] += sums[g] / draws, squares[g] += sums[g] * sums[g] / draws;
-    }
-    for (size_t g = 0; g < exact.size(); ++g) {
-      const double error = std::sqrt((squares[g] - mean[g] * mean[g]) / draws);
-      EXPECT_GT(error, 0) << "group " << g;
-      EXPECT_NEAR(mean[g], exact[g], 4 * error) << "group " << g;
-      EXPECT_LT(error, 0.1 * exact[g]) << "group " << g << ": says too little";
-    }
+    test::expectUnbiased(gather(lights_), draws, [&](uint64_t draw) {
+      const VirtualLights few = reduce(draw);
+      EXPECT_LE(few.size(), settings_.columns);
+      return gather(few);
+    });
   }
 
   Scene scene_ = randomTriangles(60, 11);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lobelia/base/error.h"
 #include "lobelia/base/random.h"
 
@@ -29,19 +31,36 @@ size_t cutSizeOf(const RenderOptions& options) {
   return options.cutSize > 0 ? options.cutSize : gather::CutSettings().nodes;
 }
 
-void requireCuts(const RenderOptions& options) {
-  if (options.gather == "sglc") {
-    if (options.lights != "path" && options.lights != "light") return;
+void requireGather(const RenderOptions& options) {
+  if (options.gather != "all" && (options.lights == "path" || options.lights == "light")) {
     throw UsageError(fmt::format(
-        "--gather sglc gathers virtual lights and --lights {} has none; use vpl, glossy or vsl",
-        options.lights));
+        "--gather {} gathers virtual lights and --lights {} has none; use vpl, glossy or vsl",
+        options.gather, options.lights));
   }
-  for (const auto& [name, given] : {std::pair{"--sglc-mode", !options.cutMode.empty()},
-                                    std::pair{"--cut-size", options.cutSize > 0}}) {
-    if (given)
-      throw UsageError(fmt::format("{} is for --gather sglc; --gather {} has no use for it", name,
-                                   options.gather));
+  struct Owned {
+    const char *name, *strategy;
+    bool given;
+  };
+  for (const auto& [name, strategy, given] :
+       {Owned{"--rows", "mrcs", options.rows > 0}, Owned{"--columns", "mrcs", options.columns > 0},
+        Owned{"--sketch", "mrcs", !options.sketch.empty()},
+        Owned{"--column-scale", "mrcs", options.columnScale != "scalar"},
+        Owned{"--near-field", "mrcs", options.nearField >= 0},
+        Owned{"--error", "mrcs", options.error > 0},
+        Owned{"--sglc-mode", "sglc", !options.cutMode.empty()},
+        Owned{"--cut-size", "sglc", options.cutSize > 0}}) {
+    if (given && options.gather != strategy)
+      throw UsageError(fmt::format("{} is for --gather {}; --gather {} has no use for it", name,
+                                   strategy, options.gather));
   }
+  requireSketch(options);
+}
+
+size_t gatheredLights(size_t lights, const RenderOptions& options) {
+  // A light of a cut costs a few times a pair of brute force: choosing it.
+  constexpr size_t kCostOfChoice = 4;
+  if (options.gather == "sglc") return std::min(lights, kCostOfChoice * cutSizeOf(options));
+  return options.gather == "mrcs" ? std::min(lights, mostColumns(options)) : lights;
 }
 
 LightGather::LightGather(const Tracer& tracer, const BandPlan& plan, int set, int width,

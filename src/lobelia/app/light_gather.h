@@ -8,8 +8,11 @@
 
 namespace lobelia::app {
 
-// Throws UsageError where options of sglc are given to another strategy.
-void requireCuts(const RenderOptions& options);
+// Throws UsageError where options of a strategy are given to another, or a strategy to what has no
+// virtual lights.
+void requireGather(const RenderOptions& options);
+// What a receiver's work is in proportion to, in lights gathered by brute force, at most.
+size_t gatheredLights(size_t lights, const RenderOptions& options);
 
 // --sglc-mode and --cut-size, defaults filled in.
 std::string cutModeOf(const RenderOptions& options);

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "lobelia/app/light_gather.h"
 #include "lobelia/base/error.h"
 #include "lobelia/base/random.h"
 
@@ -24,7 +23,7 @@ bool reduces(const RenderOptions& options) { return options.gather == "mrcs"; }
 MrcsSettings settingsFor(const RenderOptions& options, const BandPlan& plan) {
   MrcsSettings settings;
   settings.gather = plan.gather;
-  settings.columns = options.columns > 0 ? options.columns : kDefaultMostColumns;
+  settings.columns = mostColumns(options);
   settings.errorLimit = options.error;
   if (options.error > 0 && options.columns == 0) settings.columns = SIZE_MAX;
   if (options.error <= 0 && options.columns == 0) settings.errorLimit = kDefaultError;
@@ -86,7 +85,7 @@ double ReductionReport::error(int part) const {
   return sets > 0 ? std::sqrt(squaredError[part]) / static_cast<double>(sets) : 0;
 }
 
-void requireReduction(const RenderOptions& options) {
+void requireSketch(const RenderOptions& options) {
   if (!options.sketch.empty() && options.sketch != "off") {
     int dims = 0;
     const char* end = options.sketch.data() + options.sketch.size();
@@ -96,28 +95,10 @@ void requireReduction(const RenderOptions& options) {
           "--sketch '{}' is neither a multiple of 16 from 16 to 4096 nor 'off'", options.sketch));
     }
   }
-  if (reduces(options) && (options.lights == "path" || options.lights == "light")) {
-    throw UsageError(fmt::format(
-        "--gather mrcs gathers virtual lights and --lights {} has none; use vpl, glossy or vsl",
-        options.lights));
-  }
-  if (reduces(options)) return;
-  for (const auto& [name, given] :
-       {std::pair{"--rows", options.rows > 0}, std::pair{"--columns", options.columns > 0},
-        std::pair{"--sketch", !options.sketch.empty()},
-        std::pair{"--column-scale", options.columnScale != "scalar"},
-        std::pair{"--near-field", options.nearField >= 0},
-        std::pair{"--error", options.error > 0}}) {
-    if (given)
-      throw UsageError(fmt::format("{} is for --gather mrcs; --gather {} has no use for it", name,
-                                   options.gather));
-  }
 }
 
-size_t gatheredLights(size_t lights, const RenderOptions& options) {
-  if (options.gather == "sglc") return std::min(lights, 4 * cutSizeOf(options));
-  if (!reduces(options)) return lights;
-  return std::min(lights, options.columns > 0 ? options.columns : kDefaultMostColumns);
+size_t mostColumns(const RenderOptions& options) {
+  return options.columns > 0 ? options.columns : kDefaultMostColumns;
 }
 
 LightParts reduceParts(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,

@@ -16,10 +16,10 @@ struct ReductionReport {
   double error(int part) const;
 };
 
-// Throws UsageError where options of mrcs are given to another strategy.
-void requireReduction(const RenderOptions& options);
-// Lights of a set at most that receivers gather.
-size_t gatheredLights(size_t lights, const RenderOptions& options);
+// Throws UsageError where --sketch is not as it must be.
+void requireSketch(const RenderOptions& options);
+// Lights of a set that are left, at most.
+size_t mostColumns(const RenderOptions& options);
 // The same for every run of the program. When cancelled, what it returns is of no use and the
 // report stays as it was.
 LightParts reduceParts(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,

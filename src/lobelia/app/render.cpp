@@ -69,8 +69,7 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
   requireMethod(options.lights, options.gather);
   requireLightFiles(options);
   requireLightLayers(options);
-  requireReduction(options);
-  requireCuts(options);
+  requireGather(options);
   requireOwnLight(options);
   requireFrames(options);
   requireReplay(options);

@@ -10,7 +10,6 @@
 #include "lobelia/base/random.h"
 #include "lobelia/gather/receiver_clusters.h"
 #include "lobelia/gather/tile_parts.h"
-#include "lobelia/gather/tree_lights.h"
 
 namespace lobelia::gather {
 namespace {
@@ -147,12 +146,12 @@ LightCuts::LightCuts(const Tracer& tracer, const VirtualLights& lights,
     : tracer_(tracer), lights_(lights), settings_(settings), numbers_(lights, settings.gather) {
   const StageTimer timer(context, "trees");
   const Bounds3f bounds = tracer.bounds();
-  auto inputs = treeLights(lights, numbers_, tracer.scene(), bounds);
+  spheres_ = prepareSpheres(lights, tracer.scene());
+  auto inputs = treeLights(lights, numbers_, tracer.scene(), bounds, spheres_);
   for (size_t t = 0; t < kLightTrees && !context.cancelled(); ++t) {
     trees_[t] = trees::LightTree(inputs[t].lights, inputs[t].numbers, 2 * bounds.radius());
     inputs[t] = {};
   }
-  if (!context.cancelled()) spheres_ = prepareSpheres(lights, tracer.scene());
 }
 
 void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,

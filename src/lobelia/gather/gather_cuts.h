@@ -35,8 +35,8 @@ class LightCuts {
             Context& context);
 
   // As gatherAll(), whose mean this has but for visibility where it is shared. Also counts
-  // "node_pairs_visited" (nodes whose estimate was computed), "cut_lights", "receiver_clusters" and
-  // "clustered_receivers"; books the seconds of
+  // "node_pairs_visited" (nodes whose estimate was computed), "cut_lights", "receiver_clusters",
+  // "clustered_receivers" and "clustered_lights" (lights times clusters); books the seconds of
   // choosing lights to "traverse". onlyPixel: GatherSettings::onlyPixel, for clusters.
   void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
               Context& context, GatherParts* parts = nullptr) const;

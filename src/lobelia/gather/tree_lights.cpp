@@ -47,9 +47,7 @@ TreeLight asTreeLight(const GlossyLight& light) {
   return out;
 }
 
-TreeLight asTreeLight(const SphericalLight& light, float specularLimit, const Scene& scene) {
-  PreparedSphere sphere;
-  prepareSphere(scene, light, specularLimit, &sphere);
+TreeLight asTreeLight(const SphericalLight& light, const PreparedSphere& sphere) {
   const float power = luminance(light.power);
   TreeLight out;
   out.p = light.p;
@@ -75,7 +73,13 @@ TreeLight asTreeLight(const SphericalLight& light, float specularLimit, const Sc
 
 std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
                                                const LightNumbers& numbers, const Scene& scene,
-                                               const Bounds3f& bounds) {
+                                               const Bounds3f& bounds,
+                                               const std::vector<PreparedSphere>& spheres) {
+  const auto sphereOf = [&](size_t index, PreparedSphere* own) -> const PreparedSphere& {
+    if (!spheres.empty()) return spheres[index];
+    prepareSphere(scene, lights.spherical[index], lights.specularLimit, own);
+    return *own;
+  };
   std::array<TreeLights, kLightTrees> out;
   // Where a block's lights go: behind those of the blocks before it.
   struct Place {
@@ -95,6 +99,7 @@ std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
     out[t].lights.resize(sizes[t]), out[t].numbers.resize(sizes[t]);
   parallelFor(places.size(), 16, [&](size_t b) {
     const LightNumbers::Block& block = places[b].block;
+    PreparedSphere own;
     for (size_t i = 0; i < block.count; ++i) {
       const size_t index = block.first + i, place = places[b].first + i;
       places[b].tree->numbers[place] = static_cast<uint32_t>(block.number + i);
@@ -113,7 +118,7 @@ std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
           light = asTreeLight(lights.glossy[index]);
           break;
         case LightClass::spherical:
-          light = asTreeLight(lights.spherical[index], lights.specularLimit, scene);
+          light = asTreeLight(lights.spherical[index], sphereOf(index, &own));
           break;
       }
     }

@@ -11,6 +11,7 @@ namespace lobelia::gather {
 
 // Directional lights, which stand far outside of the scene, and all others: a node of both would be
 // told very wrongly.
+// spheres: prepareSpheres(), which may be empty.
 inline constexpr size_t kLightTrees = 2;
 struct TreeLights {
   std::vector<trees::TreeLight> lights;
@@ -18,6 +19,7 @@ struct TreeLights {
 };
 std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
                                                const LightNumbers& numbers, const Scene& scene,
-                                               const Bounds3f& bounds);
+                                               const Bounds3f& bounds,
+                                               const std::vector<PreparedSphere>& spheres);
 
 }  // namespace lobelia::gather
