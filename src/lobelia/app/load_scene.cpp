@@ -34,6 +34,23 @@ io::ReadSettings readSettings(const SceneOptions& options) {
   return settings;
 }
 
+// Of a file that is not there: its folder, or a file of nearly the same name in it.
+[[noreturn]] void throwMissing(const std::string& name) {
+  namespace fs = std::filesystem;
+  const fs::path file(name), folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw InputError({name}, fmt::format("there is no folder '{}'", folder.string()));
+  std::vector<std::string> others;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    others.push_back(it->path().filename().string());
+  std::sort(others.begin(), others.end());
+  throw InputError({name}, fmt::format("there is no such file in '{}'{}; built-in scenes are "
+                                       "named without a suffix",
+                                       fs::weakly_canonical(folder, error).string(),
+                                       suggestion(file.filename().string(), others)));
+}
+
 // A file goes before a built-in scene of the same name.
 bool isBuiltin(const std::string& name) {
   std::error_code error;  // of folders that may not be looked into: reading will say so
@@ -43,7 +60,7 @@ bool isBuiltin(const std::string& name) {
   if (std::filesystem::exists(status) || error == std::errc::permission_denied) return false;
   const std::vector<std::string> names = builtin::builtinSceneNames();
   if (std::find(names.begin(), names.end(), name) != names.end()) return true;
-  if (std::filesystem::path(name).has_extension()) return false;
+  if (std::filesystem::path(name).has_extension()) throwMissing(name);
   throw InputError({}, fmt::format("'{}' is neither a file nor a built-in scene; there are {}{}",
                                    name, fmt::join(names, ", "), suggestion(name, names)));
 }
