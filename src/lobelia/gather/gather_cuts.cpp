@@ -48,13 +48,9 @@ class LightCuts::ClusterGather {
     Tile tile = makeTile(clusters_.receivers, cluster.begin, cluster.end);
     addSampling(clusters_.receivers, &tile);
     const uint64_t seed = keyOf(clusters_.receivers.points[cluster.begin], cuts_.settings_.seed);
-    CutReceivers receivers{tile, {}};
-    for (size_t lane = 0; lane < kStrip; ++lane)
-      if (tile.strips[0].active >> lane & 1)
-        receivers.weight[lane] =
-            luminance(clusters_.receivers.points[tile.strips[0].point[lane]].weight);
-    tally->evaluations +=
-        drawCutLights(receivers, cuts_.trees_, cuts_.settings_.cut, seed, &scratch_, &drawn_);
+    const CutReceivers receivers = cutReceivers(tile, clusters_.receivers);
+    tally->evaluations += drawCutLights(receivers, cluster.representatives, cuts_.trees_,
+                                        cuts_.settings_.cut, seed, &scratch_, &drawn_);
     tally->lights += drawn_.size();
     tally->traverseNs += nanosecondsNow() - start;
 
@@ -178,9 +174,9 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
     Tally tally;
     for (size_t i = begin; i < end; ++i) {
       if (context.cancelled()) return;
-      const auto& [first, last, compact] = clusters.clusters[i];
-      if (!holdsPixel(clusters.receivers, first, last, onlyPixel)) continue;
-      gather.run(clusters.clusters[i], radiance, &tally);
+      const ReceiverClusters::Cluster& cluster = clusters.clusters[i];
+      if (!holdsPixel(clusters.receivers, cluster.begin, cluster.end, onlyPixel)) continue;
+      gather.run(cluster, radiance, &tally);
     }
     const std::lock_guard lock(mutex);
     all.rays += tally.rays, all.pairs += tally.pairs, all.nonfinite += tally.nonfinite;
