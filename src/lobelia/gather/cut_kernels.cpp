@@ -103,7 +103,7 @@ class CutGrowth {
   void run(size_t most) {
     for (uint32_t tree = 0; tree < trees_.size(); ++tree) {
       if (trees_[tree].empty()) continue;
-      children_[0] = {0, tree, 0};
+      children_[0] = {0, 0, tree, 0};
       add(1);
     }
     while (!heap_.empty() && heap_.size() + done_.size() < most) {
@@ -113,8 +113,8 @@ class CutGrowth {
         const Entry split = heap_.back();
         heap_.pop_back();
         const LightTree& tree = trees_[split.tree];
-        children_[2 * i] = {0, split.tree, tree.left(split.node)};
-        children_[2 * i + 1] = {0, split.tree, tree.right(split.node)};
+        children_[2 * i] = {0, 0, split.tree, tree.left(split.node)};
+        children_[2 * i + 1] = {0, 0, split.tree, tree.right(split.node)};
       }
       add(2 * splits);
     }
@@ -138,6 +138,7 @@ class CutGrowth {
     for (size_t i = 0; i < count; ++i) {
       if (!(values[i] > 0)) continue;
       Entry entry = children_[i];
+      entry.importance = values[i];
       if (nodes[i]->leaf()) {
         done_.push_back(entry);
       } else {
@@ -165,7 +166,7 @@ class Descents {
   // Appends the lights of the entries, all of one tree, in their order. A node none of whose lights
   // contributes leaves none.
   void run(std::vector<g::CutLight>* lights) {
-    drawn_.assign(entries_.size(), {0, 0});
+    drawn_.assign(entries_.size(), {0, 0, 0});
     for (refill(); count_ > 0; refill()) step();
     for (const g::CutLight& light : drawn_)
       if (light.probability > 0) lights->push_back(light);
@@ -177,13 +178,14 @@ class Descents {
     uint32_t node;
     size_t entry;
     double probability, u;
+    float importance;
   };
 
   void refill() {
     for (; count_ < kSideBySide && next_ < entries_.size(); ++next_) {
       const Entry& entry = entries_[next_];
       const uint64_t key = hashCombine(seed_, uint64_t{entry.tree} << 32 | entry.node);
-      keep({entry.node, next_, 1, static_cast<double>(key >> 11) * 0x1p-53});
+      keep({entry.node, next_, 1, static_cast<double>(key >> 11) * 0x1p-53, entry.importance});
     }
   }
 
@@ -191,7 +193,8 @@ class Descents {
   void keep(const Descent& at) {
     const LightNode& node = tree_.nodes()[at.node];
     if (node.leaf()) {
-      drawn_[at.entry] = {tree_.light(node.first), static_cast<float>(at.probability)};
+      const float probability = static_cast<float>(at.probability);
+      drawn_[at.entry] = {tree_.light(node.first), probability, at.importance / probability};
       return;
     }
     hwy::Prefetch(&tree_.nodes()[tree_.left(at.node)]);
@@ -219,10 +222,12 @@ class Descents {
         at.u /= share;
         at.probability *= share;
         at.node = tree_.left(at.node);
+        at.importance = values[2 * i];
       } else {
         at.u = std::min((at.u - share) / (1 - share), 0x1.fffffffffffffp-1);
         at.probability *= 1 - share;
         at.node = tree_.right(at.node);
+        at.importance = values[2 * i + 1];
       }
       keep(at);
     }
@@ -253,6 +258,9 @@ size_t drawCutLights(const g::CutReceivers& receivers, int representatives,
              &scratch->drawn)
         .run(lights);
   }
+  float all = 0;
+  for (const g::CutLight& light : *lights) all += light.share;
+  for (g::CutLight& light : *lights) light.share /= all;
   return importance.evaluations();
 }
 

@@ -22,11 +22,12 @@ struct CutSettings {
 struct CutLight {
   uint32_t number;    // of the light
   float probability;  // that it stands for its node
+  float share;        // of all that the receivers get, as estimated
 };
 
 struct CutScratch {
   struct Entry {
-    float priority;
+    float priority, importance;
     uint32_t tree, node;
   };
   std::vector<Entry> heap, done;

@@ -29,6 +29,10 @@ void reorder(const std::vector<T>& from, const std::vector<uint32_t>& order, siz
     (*to)[i / order.size() * count + order[i % order.size()]] = from[i];
 }
 
+// A light that makes at least this share of what a cluster gets casts its shadow sharply: each
+// receiver has its own ray to it.
+constexpr float kOwnRays = 0.005f;
+
 }  // namespace
 
 struct LightCuts::Tally {
@@ -58,10 +62,12 @@ class LightCuts::ClusterGather {
     sums.strips.resize(1);
     std::optional<TileParts> parts;
     if (parts_ != nullptr) parts.emplace(clusters_.receivers, cuts_.lights_, tile, parts_);
+    TileParts* const part = parts ? &*parts : nullptr;
     for (const LightClass lightClass : kLightClasses) {
       if (parts) parts->beginClass(sums);
-      addClass(tile, lightClass, cluster.compact && cuts_.settings_.shared, seed, &sums,
-               parts ? &*parts : nullptr, tally);
+      // What its lights share, then what they do not.
+      if (shares(cluster)) addClass(tile, lightClass, true, cluster, seed, &sums, part, tally);
+      addClass(tile, lightClass, false, cluster, seed, &sums, part, tally);
       if (parts) parts->endClass(lightClass, sums);
     }
     if (parts) parts->write();
@@ -71,7 +77,13 @@ class LightCuts::ClusterGather {
   }
 
  private:
-  void addClass(const Tile& tile, LightClass lightClass, bool shared, uint64_t seed, TileSums* sums,
+  bool shares(const ReceiverClusters::Cluster& cluster) const {
+    return cluster.compact && cuts_.settings_.shared;
+  }
+
+  // Lights of a class: those that one ray answers for, or those that need a ray from each receiver.
+  void addClass(const Tile& tile, LightClass lightClass, bool shared,
+                const ReceiverClusters::Cluster& cluster, uint64_t seed, TileSums* sums,
                 TileParts* parts, Tally* tally) {
     uint32_t indices[kBlockLights];
     float scale[kBlockLights];
@@ -86,6 +98,7 @@ class LightCuts::ClusterGather {
     for (const CutLight& drawn : drawn_) {
       const ChosenLight light = cuts_.numbers_.at(drawn.number);
       if (light.lightClass != lightClass) continue;
+      if (shared != (shares(cluster) && drawn.share < kOwnRays)) continue;
       indices[count] = static_cast<uint32_t>(light.index);
       scale[count++] = 1 / drawn.probability;
       if (count == kBlockLights) flush();

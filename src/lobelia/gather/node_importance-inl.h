@@ -20,7 +20,7 @@ struct NodeLanes {
   V3<Vf> n;
   Vf diffuse;
   V3<Vf> axis;
-  Vf sharpness, glossy, radius;
+  Vf sharpness, glossy, radius, count;
   Mf leaf;
   bool anyLeaf, anyDiffuse, anyGlossy;
 };
@@ -41,9 +41,10 @@ class NodeTable {
     const auto field = [&](int i) { return Vf::load(fields_[i] + lane); };
     const auto vector = [&](int i) { return V3<Vf>{field(i), field(i + 1), field(i + 2)}; };
     const auto count = hn::BitCast(Di(), field(15).v);
-    const Mf leaf{hn::RebindMask(Df(), hn::Eq(count, hn::Set(Di(), 1)))};
-    NodeLanes node{vector(0), field(3),  vector(4), field(7),  vector(8), field(11),
-                   field(12), field(13), leaf,      any(leaf), true,      true};
+    const Vf lights = hn::ConvertTo(Df(), count);
+    const Mf leaf = lights == Vf(1.f);
+    NodeLanes node{vector(0), field(3), vector(4), field(7),  vector(8), field(11), field(12),
+                   field(13), lights,   leaf,      any(leaf), true,      true};
     node.anyDiffuse = any(node.diffuse > Vf(0.f));
     node.anyGlossy = any(node.glossy > Vf(0.f));
     return node;
@@ -81,7 +82,7 @@ HWY_INLINE Vf smoothPositive(Vf x, Vf spread) { return Vf(0.5f) * (x + sqrt(x * 
 // Radiant intensity times reflectance over squared distance, roughly: both ends' lobes widened by
 // the angle at which the node's lights appear; times the receiver's weight and `scale`. 0 only
 // where nothing is contributed. floor: CutSettings. relativeVariance: of what the node's lights
-// contribute, roughly, at most 1.
+// contribute to one receiver, roughly.
 HWY_INLINE Vf nodeImportance(const NodeLanes& node, const g::CutReceivers& receivers, size_t lane,
                              Vf floor, Vf scale, Vf* relativeVariance) {
   constexpr float kLeastVariance = 0.02f;  // of visibility, and where the estimate is wrong
@@ -150,9 +151,12 @@ HWY_INLINE Vf nodeImportance(const NodeLanes& node, const g::CutReceivers& recei
     slope += part * length;
   }
   total += floor * (light * receiverPeak + lightPeak * (receiver + floor * receiverPeak));
-  // Relative variance within the node: by distance, and by the slopes of the lobes.
+  // Relative variance within the node: by distance, and by the slopes of the lobes; among lights
+  // around the receiver, the nearest may matter most.
   const Vf slopes = slope / max(total, Vf(1e-30f));
-  *relativeVariance = min(Vf(kLeastVariance) + wide * (Vf(1.f) + slopes), Vf(1.f));
+  const Vf among = max(wide + wide - Vf(1.f), Vf(0.f));
+  *relativeVariance =
+      min(Vf(kLeastVariance) + wide * (Vf(1.f) + slopes), Vf(1.f)) + among * among * node.count;
   const Vf weight = Vf::load(receivers.weight + lane) * scale;
   // Squares neither vanish nor overflow.
   const Vf value = min(max(weight * total * inverse, Vf(1e-18f)), Vf(1e18f));
