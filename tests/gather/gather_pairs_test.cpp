@@ -100,6 +100,9 @@ TEST_F(GatherPairs, ThresholdZeroOfSeveralLobesAndDepths) {
                                3, 9);
   settings_.threshold = 0;
   expectEqual(pairs(tracer_, lights_), all(tracer_, lights_));
+  settings_.gather.clamp = 0.5f;
+  expectEqual(pairs(tracer_, lights_), all(tracer_, lights_));
+  settings_.share = Share::radiance;
   settings_.gather.maxDepth = 4;
   settings_.gather.direct = false;
   const std::vector<Rgb> exact = all(tracer_, lights_);

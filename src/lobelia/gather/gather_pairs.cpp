@@ -58,7 +58,7 @@ class LightPairs::Run {
     if (parts != nullptr) parts->reset(receivers.points.size());
     const StageTimer timer(context, "trees");
     forest_ = plantReceivers(receivers, 2 * pairs.tracer_.bounds().radius(),
-                             settings_.gather.maxDepth >= 0);
+                             settings_.gather.maxDepth >= 0, settings_.gather.clamp > 0);
   }
 
   // False when cancelled.

@@ -13,7 +13,7 @@
 // below .05 of it times the mean of the picture's pixels at hand, without which black ones were
 // refined to leaves. It is the largest of a receiver's, then the smallest of a node's, where the
 // paper takes both smallest first. The first estimate traces one ray per light node and strip of
-// receivers. With a clamp, each lobe of a receiver is clamped by itself.
+// receivers.
 #pragma once
 
 #include <map>

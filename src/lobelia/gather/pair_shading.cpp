@@ -31,7 +31,11 @@ PairShading::PairShading(const PairScene& scene, const ReceiverForest::Tree& rec
       first_(receivers.tree.nodes()[node].first),
       count_(receivers.tree.nodes()[node].count),
       tile_(makeTile(receivers.receivers, first_, first_ + count_)) {
-  if (!scene.lights.spherical.empty()) addSampling(receivers.receivers, &tile_);
+  if (!receivers.whole.points.empty()) whole_ = makeTile(receivers.whole, first_, first_ + count_);
+  if (!scene.lights.spherical.empty()) {
+    addSampling(receivers.receivers, &tile_);
+    if (!whole_.strips.empty()) addSampling(receivers.whole, &whole_);
+  }
   receiverRays.assign(count_, 0);
   clear();
 }
@@ -167,10 +171,15 @@ void PairShading::shadeBlock(std::span<const Traced> pairs, std::span<const uint
   }
   keepFacing(tile_, block_, &masks_);
   if (scene_.share == Share::radiance) return copyRadiance(pairs, nodes);
+  if (!whole_.strips.empty()) return addValues();
+  shadeMasks();
+}
+
+void PairShading::shadeMasks() {
   TileSums sums;
-  sums.strips.resize(strips);
+  sums.strips.resize(tile_.strips.size());
   shade(tile_, block_, scene_.clamp, masks_, &sums);
-  for (size_t s = 0; s < strips; ++s) {
+  for (size_t s = 0; s < sums.strips.size(); ++s) {
     for (size_t i = 0; i < kStrip; ++i) {
       sums_.strips[s].x[i] += sums.strips[s].x[i];
       sums_.strips[s].y[i] += sums.strips[s].y[i];
@@ -182,14 +191,43 @@ void PairShading::shadeBlock(std::span<const Traced> pairs, std::span<const uint
   nonfinite += sums.nonfinite;
 }
 
-void PairShading::copyRadiance(std::span<const Traced> pairs, std::span<const uint32_t> nodes) {
-  const size_t strips = tile_.strips.size();
-  values_ = {};
-  values_.reset(nodes.size(), strips);
-  shadePairs(tile_, block_, scene_.clamp, masks_, &values_);
+// Of the masks, one by one.
+void PairShading::computeValues() {
+  const size_t lights = static_cast<size_t>(block_.count), strips = tile_.strips.size();
+  const auto compute = [&](const Tile& tile, float clamp, PairValues* values) {
+    *values = {};
+    values->reset(lights, strips);
+    shadePairs(tile, block_, clamp, masks_, values);
+  };
+  compute(tile_, whole_.strips.empty() ? scene_.clamp : 0, &values_);
   shaded += values_.pairs;
   nonfinite += values_.nonfinite;
   if (values_.nonfinite > 0) noteBad(0, 1);
+  if (whole_.strips.empty()) return;
+  compute(whole_, scene_.clamp, &clamped_);
+  compute(whole_, 0, &free_);
+  for (size_t i = 0; i < lights * strips * kStrip; ++i) {
+    const float all = free_.x[i] + free_.y[i] + free_.z[i];
+    if (!(all > 0)) continue;
+    const float left = (clamped_.x[i] + clamped_.y[i] + clamped_.z[i]) / all;
+    values_.x[i] *= left, values_.y[i] *= left, values_.z[i] *= left;
+  }
+}
+
+void PairShading::addValues() {
+  computeValues();
+  const size_t strips = tile_.strips.size();
+  for (size_t i = 0; i < static_cast<size_t>(block_.count) * strips * kStrip; ++i) {
+    TileSums::Strip& sum = sums_.strips[i / kStrip % strips];
+    sum.x[i % kStrip] += double{values_.x[i]};
+    sum.y[i % kStrip] += double{values_.y[i]};
+    sum.z[i % kStrip] += double{values_.z[i]};
+  }
+}
+
+void PairShading::copyRadiance(std::span<const Traced> pairs, std::span<const uint32_t> nodes) {
+  computeValues();
+  const size_t strips = tile_.strips.size();
   size_t l = 0;
   for (const Traced& pair : pairs) {
     if (!pair.visible) continue;

@@ -4,7 +4,8 @@
 // paper takes, may lie inside of objects. Then every receiver is lit by what stands for the lights,
 // by its own lobe and place (Share::visibility), or all get the light of the one that the ray left
 // from (Share::radiance: the paper's). Pairs of a light and a receiver get what brute force gives
-// them, by the same kernels.
+// them, by the same kernels. A clamp works on all lobes of a receiver together: one lobe gets what
+// it leaves of their sum.
 #pragma once
 
 #include <optional>
@@ -59,13 +60,16 @@ class PairShading {
   void traceRays(std::span<Traced> pairs, uint32_t found);
   void shadeAll(const LightForest::Tree& lights, std::span<const Traced> pairs);
   void shadeBlock(std::span<const Traced> pairs, std::span<const uint32_t> nodes);
+  void shadeMasks();
+  void computeValues();
+  void addValues();
   void copyRadiance(std::span<const Traced> pairs, std::span<const uint32_t> nodes);
   void noteBad(size_t strip, uint32_t lanes);
 
   const PairScene& scene_;
   const ReceiverForest::Tree& receivers_;
   const uint32_t first_, count_;
-  Tile tile_;
+  Tile tile_, whole_;  // the second with all lobes, where a clamp needs them
   TileSums sums_;
   std::vector<Vec3d> copied_;  // Share::radiance; weighted
   std::vector<Traced> traced_;
@@ -73,7 +77,7 @@ class PairShading {
   Vec3f rayFrom_[kBlockLights], rayTo_[kBlockLights];  // origins and directions
   bool infinite_ = false;                              // the rays do not end
   PairMasks masks_;
-  PairValues values_;
+  PairValues values_, clamped_, free_;
 };
 
 }  // namespace lobelia::gather

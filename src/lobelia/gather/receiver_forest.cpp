@@ -49,43 +49,60 @@ struct PointLobe {
   uint32_t point, lobe;
 };
 
+// Appends a point with `count` of its lobes.
+void append(const Receivers& from, uint32_t point, uint32_t firstLobe, uint8_t count,
+            Receivers* to) {
+  ReceiverPoint copy = from.points[point];
+  copy.firstLobe = static_cast<uint32_t>(to->lobes.size());
+  copy.lobeCount = count;
+  to->points.push_back(copy);
+  const auto first = from.lobes.begin() + static_cast<ptrdiff_t>(firstLobe);
+  to->lobes.insert(to->lobes.end(), first, first + count);
+}
+
 void plant(const Receivers& receivers, const std::vector<PointLobe>& chosen, float scale,
-           ReceiverForest::Tree* out) {
-  const auto single = [&](const PointLobe& at, Receivers* to) {
-    ReceiverPoint point = receivers.points[at.point];
-    point.firstLobe = static_cast<uint32_t>(to->lobes.size());
-    point.lobeCount = 1;
-    to->points.push_back(point);
-    to->lobes.push_back(receivers.lobes[at.lobe]);
-  };
+           bool whole, ReceiverForest::Tree* out) {
   Receivers given;
-  for (const PointLobe& at : chosen) single(at, &given);
+  for (const PointLobe& at : chosen) append(receivers, at.point, at.lobe, 1, &given);
   out->glossy = isGlossy(given.lobes[0]);
   out->depth = given.points[0].depth;
   out->tree = BoundTree(
       static_cast<uint32_t>(chosen.size()), [&](uint32_t i) { return itemOf(given, i); },
       BoundTree::Side::receivers, scale, kStrip);
   for (const uint32_t i : out->tree.order()) {
-    single(chosen[i], &out->receivers);
-    out->points.push_back(chosen[i].point);
+    const PointLobe& at = chosen[i];
+    append(receivers, at.point, at.lobe, 1, &out->receivers);
+    out->points.push_back(at.point);
+    const ReceiverPoint& point = receivers.points[at.point];
+    if (whole && point.lobeCount > 1)
+      append(receivers, at.point, point.firstLobe, point.lobeCount, &out->whole);
   }
   addTiles(out->tree, 0, &out->tiles);
 }
 
 }  // namespace
 
-ReceiverForest plantReceivers(const Receivers& receivers, float scale, bool byDepth) {
-  std::map<std::pair<int, LobeKinds>, std::vector<PointLobe>> kinds;
+ReceiverForest plantReceivers(const Receivers& receivers, float scale, bool byDepth, bool wholes) {
+  struct Kind {
+    int depth;
+    LobeKinds lobe, whole;
+    uint32_t place;  // of the lobe in the whole
+    auto operator<=>(const Kind&) const = default;
+  };
+  std::map<Kind, std::vector<PointLobe>> kinds;
   for (uint32_t i = 0; i < receivers.points.size(); ++i) {
-    ReceiverPoint point = receivers.points[i];
-    const uint32_t end = point.firstLobe + point.lobeCount;
-    point.lobeCount = 1;
-    for (; point.firstLobe < end; ++point.firstLobe)
-      kinds[{byDepth ? point.depth : 0, kindsOf(receivers, point)}].push_back({i, point.firstLobe});
+    const ReceiverPoint& point = receivers.points[i];
+    for (uint32_t l = 0; l < point.lobeCount; ++l) {
+      ReceiverPoint one = point;
+      one.firstLobe += l, one.lobeCount = 1;
+      Kind kind{byDepth ? point.depth : 0, kindsOf(receivers, one), {}, 0};
+      if (wholes) kind.whole = kindsOf(receivers, point), kind.place = l;
+      kinds[kind].push_back({i, one.firstLobe});
+    }
   }
   ReceiverForest forest;
   for (const auto& [kind, chosen] : kinds)
-    plant(receivers, chosen, scale, &forest.trees.emplace_back());
+    plant(receivers, chosen, scale, wholes, &forest.trees.emplace_back());
   return forest;
 }
 

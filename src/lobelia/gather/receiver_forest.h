@@ -14,6 +14,9 @@ struct ReceiverForest {
     uint8_t depth = 0;             // of all its receivers, where depths are kept apart
     Receivers receivers;           // in the leaves' order, each with one lobe
     std::vector<uint32_t> points;  // which of the points given they are
+    // Where wanted: the same with all of their lobes, of the same kinds for all of them; empty when
+    // they have no others.
+    Receivers whole;
     // Bounds of a receiver's lobe times the luminance of its weight.
     trees::BoundTree tree;
     // The largest nodes with at most kMaxTilePoints receivers; they share nothing.
@@ -22,8 +25,8 @@ struct ReceiverForest {
   std::vector<Tree> trees;  // none is empty
 };
 
-// scale: size of the scene. byDepth: receivers of different depths in different trees. The same for
-// any number of threads.
-ReceiverForest plantReceivers(const Receivers& receivers, float scale, bool byDepth);
+// scale: size of the scene. byDepth: receivers of different depths in different trees. wholes: fill
+// Tree::whole? The same for any number of threads.
+ReceiverForest plantReceivers(const Receivers& receivers, float scale, bool byDepth, bool wholes);
 
 }  // namespace lobelia::gather
