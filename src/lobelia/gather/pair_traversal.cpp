@@ -18,10 +18,10 @@ void addLevel(const trees::BoundTree& tree, uint32_t node, int level, std::vecto
   addLevel(tree, tree.right(node), level - 1, out);
 }
 
-// The widest angle of what a node sends or scatters; nodes without normals have none.
+// Chord of the angle over which a node sends or scatters; nodes without normals have none.
 float spreadOf(const BoundNode& node, bool gaussian, bool normals) {
-  if (gaussian) return trees::angleOfCode(node.lobeAngle);
-  return normals ? trees::angleOfCode(node.normalAngle) : 0.f;
+  const float halfSine = static_cast<float>(gaussian ? node.lobeAngle : node.normalAngle);
+  return gaussian || normals ? halfSine * (2 / trees::kAngleCodes) : 0.f;
 }
 
 }  // namespace
