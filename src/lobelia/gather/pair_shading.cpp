@@ -175,6 +175,17 @@ void PairShading::shadeBlock(std::span<const Traced> pairs, std::span<const uint
   shadeMasks();
 }
 
+// Calls f(strip, lane, index of its value) for the pairs of the masks, in their order.
+template <class F>
+void PairShading::forMasked(const F& f) const {
+  for (size_t m = 0; m < masks_.bits.size(); ++m) {
+    for (uint32_t bits = masks_.bits[m]; bits != 0; bits &= bits - 1) {
+      const size_t lane = static_cast<size_t>(__builtin_ctz(bits));
+      f(m % masks_.strips, lane, m * kStrip + lane);
+    }
+  }
+}
+
 void PairShading::shadeMasks() {
   TileSums sums;
   sums.strips.resize(tile_.strips.size());
@@ -191,12 +202,12 @@ void PairShading::shadeMasks() {
   nonfinite += sums.nonfinite;
 }
 
-// Of the masks, one by one.
+// Of the masks, one by one; what is not in them is left as it was.
 void PairShading::computeValues() {
-  const size_t lights = static_cast<size_t>(block_.count), strips = tile_.strips.size();
   const auto compute = [&](const Tile& tile, float clamp, PairValues* values) {
-    *values = {};
-    values->reset(lights, strips);
+    for (AlignedFloats* channel : {&values->x, &values->y, &values->z})
+      channel->resize(masks_.bits.size() * kStrip);
+    values->pairs = values->nonfinite = 0;
     shadePairs(tile, block_, clamp, masks_, values);
   };
   compute(tile_, whole_.strips.empty() ? scene_.clamp : 0, &values_);
@@ -206,23 +217,21 @@ void PairShading::computeValues() {
   if (whole_.strips.empty()) return;
   compute(whole_, scene_.clamp, &clamped_);
   compute(whole_, 0, &free_);
-  for (size_t i = 0; i < lights * strips * kStrip; ++i) {
+  forMasked([&](size_t, size_t, size_t i) {
     const float all = free_.x[i] + free_.y[i] + free_.z[i];
-    if (!(all > 0)) continue;
+    if (!(all > 0)) return;
     const float left = (clamped_.x[i] + clamped_.y[i] + clamped_.z[i]) / all;
     values_.x[i] *= left, values_.y[i] *= left, values_.z[i] *= left;
-  }
+  });
 }
 
 void PairShading::addValues() {
   computeValues();
-  const size_t strips = tile_.strips.size();
-  for (size_t i = 0; i < static_cast<size_t>(block_.count) * strips * kStrip; ++i) {
-    TileSums::Strip& sum = sums_.strips[i / kStrip % strips];
-    sum.x[i % kStrip] += double{values_.x[i]};
-    sum.y[i % kStrip] += double{values_.y[i]};
-    sum.z[i % kStrip] += double{values_.z[i]};
-  }
+  forMasked([&](size_t s, size_t lane, size_t i) {
+    sums_.strips[s].x[lane] += double{values_.x[i]};
+    sums_.strips[s].y[lane] += double{values_.y[i]};
+    sums_.strips[s].z[lane] += double{values_.z[i]};
+  });
 }
 
 void PairShading::copyRadiance(std::span<const Traced> pairs, std::span<const uint32_t> nodes) {
@@ -232,7 +241,8 @@ void PairShading::copyRadiance(std::span<const Traced> pairs, std::span<const ui
   for (const Traced& pair : pairs) {
     if (!pair.visible) continue;
     while (nodes[l] != pair.nodes.lights) ++l;
-    const size_t at = (l * strips + pair.from / kStrip) * kStrip + pair.from % kStrip;
+    const size_t mask = l * strips + pair.from / kStrip, at = mask * kStrip + pair.from % kStrip;
+    if ((masks_.bits[mask] >> pair.from % kStrip & 1) == 0) continue;
     const Rgb weight = receivers_.receivers.points[first_ + pair.from].weight;
     const Rgb value = weight * Rgb(values_.x[at], values_.y[at], values_.z[at]);
     for (uint32_t i = pair.begin; i < pair.end; ++i)

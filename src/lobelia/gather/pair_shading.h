@@ -60,6 +60,8 @@ class PairShading {
   void traceRays(std::span<Traced> pairs, uint32_t found);
   void shadeAll(const LightForest::Tree& lights, std::span<const Traced> pairs);
   void shadeBlock(std::span<const Traced> pairs, std::span<const uint32_t> nodes);
+  template <class F>
+  void forMasked(const F& f) const;
   void shadeMasks();
   void computeValues();
   void addValues();
