@@ -64,6 +64,35 @@ class GatherPairs : public testing::Test {
   VirtualLights lights_ = randomLights(150, 100.f, 5);
 };
 
+// Neighbours in a corner, lit by a wall of lights.
+class GatherPairsOfWalls : public GatherPairs {
+ protected:
+  GatherPairsOfWalls() {
+    for (Vec3f& p : scene_.meshes[0].positions) p = p * 0.2f + Vec3f{0, 0, 0.5f};
+    Rng rng(5);
+    for (ReceiverPoint& point : receivers_.points) {
+      point.p = {rng.next1D(), rng.next1D(), 0};
+      point.frame = frameFromNormal({0, 0, 1});
+      point.ng = {0, 0, 1};
+      point.wo = normalize(Vec3f{0.3f, 0.2f, 1} + randomPoint(&rng, 0.05f));
+      point.weight = Rgb(1.f);
+    }
+    VirtualLights wall;
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3f p{-0.3f, rng.next1D(), 0.2f + rng.next1D()}, n{1, 0, 0};
+      const Rgb color = randomColor(&rng);
+      if (i % 2 == 0) {
+        wall.diffuse.push_back({p, color, encodeOctahedral(n), 1});
+      } else {
+        const Vec3f axis = normalize(Vec3f{1, 0.1f, -0.8f} + randomPoint(&rng, 0.2f));
+        wall.glossy.push_back({p, n, axis, color * 10.f, 20 + 30 * rng.next1D()});
+      }
+    }
+    wall.diffuseDepthEnds = wall.glossyDepthEnds = {0, 1500};
+    lights_ = wall;
+  }
+};
+
 TEST_F(GatherPairs, ThresholdZeroIsTheSum) {
   settings_.threshold = 0;
   settings_.gather.clamp = 3;
@@ -90,6 +119,34 @@ TEST_F(GatherPairs, ThresholdZeroOfEveryClassAlone) {
     EXPECT_GT(sum(exact), 0);
     expectEqual(pairs(tracer_, one), exact);
   }
+}
+
+// Lights whose directions have a pattern stand for themselves, at any threshold.
+TEST_F(GatherPairs, SpotsKeepTheirPattern) {
+  Emitter spot;
+  spot.type = EmitterType::spot;
+  spot.cutoff = 1.2f;
+  spot.beamWidth = 0.3f;
+  scene_.emitters = {spot};
+  const Tracer tracer(scene_, context_);
+  VirtualLights spots;
+  Rng rng(2);
+  for (int i = 0; i < 40; ++i) spots.omni.push_back({randomPoint(&rng, 1), randomColor(&rng), 0});
+  settings_.threshold = 0.5f;
+  const std::vector<Rgb> exact = all(tracer, spots);
+  EXPECT_GT(sum(exact), 0);
+  expectEqual(pairs(tracer, spots), exact);
+}
+
+// One ray must not decide about a sun's shadow for many receivers.
+TEST_F(GatherPairsOfWalls, ShadowsOfSunsAreSharp) {
+  const Tracer tracer(scene_, context_);
+  VirtualLights sun;
+  sun.directional.push_back({normalize(Vec3f{-0.8f, -0.8f, 1}), Rgb(1.f)});
+  settings_.threshold = 0.02f;
+  const std::vector<Rgb> exact = all(tracer, sun);
+  EXPECT_GT(std::count(exact.begin(), exact.end(), Rgb{}), 10) << "in shadow";
+  expectEqual(pairs(tracer, sun), exact);
 }
 
 // Each lobe in a tree of its own, and depths that see fewer lights.
@@ -120,35 +177,6 @@ TEST_F(GatherPairs, EachLightAndReceiverOnce) {
       EXPECT_EQ(growth("clustered_lights", [&] { pairs(tracer_, lights_); }), whole);
     }
 }
-
-// Neighbours in a corner, lit by a wall of lights.
-class GatherPairsOfWalls : public GatherPairs {
- protected:
-  GatherPairsOfWalls() {
-    for (Vec3f& p : scene_.meshes[0].positions) p = p * 0.2f + Vec3f{0, 0, 0.5f};
-    Rng rng(5);
-    for (ReceiverPoint& point : receivers_.points) {
-      point.p = {rng.next1D(), rng.next1D(), 0};
-      point.frame = frameFromNormal({0, 0, 1});
-      point.ng = {0, 0, 1};
-      point.wo = normalize(Vec3f{0.3f, 0.2f, 1} + randomPoint(&rng, 0.05f));
-      point.weight = Rgb(1.f);
-    }
-    VirtualLights wall;
-    for (int i = 0; i < 3000; ++i) {
-      const Vec3f p{-0.3f, rng.next1D(), 0.2f + rng.next1D()}, n{1, 0, 0};
-      const Rgb color = randomColor(&rng);
-      if (i % 2 == 0) {
-        wall.diffuse.push_back({p, color, encodeOctahedral(n), 1});
-      } else {
-        const Vec3f axis = normalize(Vec3f{1, 0.1f, -0.8f} + randomPoint(&rng, 0.2f));
-        wall.glossy.push_back({p, n, axis, color * 10.f, 20 + 30 * rng.next1D()});
-      }
-    }
-    wall.diffuseDepthEnds = wall.glossyDepthEnds = {0, 1500};
-    lights_ = wall;
-  }
-};
 
 TEST_F(GatherPairsOfWalls, SmallerThresholdsComeNearer) {
   const Tracer tracer(scene_, context_);

@@ -181,7 +181,7 @@ class LightPairs::Run {
     const int64_t start = nanosecondsNow();
     PairShading shading(scene_, *job->receivers, job->node);
     PairTraversal traversal(job->receivers->tree, job->receivers->glossy, *job->lights,
-                            settings_.traversal);
+                            traversalOf(job->lights->lightClass));
     job->tally.bounded +=
         traversal.run(job->node, thresholdsOf(*job, floor), [&](std::vector<TreePair>* pairs) {
           if (context_.cancelled()) return;
@@ -195,6 +195,13 @@ class LightPairs::Run {
         });
     job->tally.traverseNs += nanosecondsNow() - start - shading.visibilityNs - shading.shadeNs;
     job->take(shading);
+  }
+
+  TraversalSettings traversalOf(LightClass lightClass) const {
+    TraversalSettings traversal = settings_.traversal;
+    if (lightClass == LightClass::omni || lightClass == LightClass::directional)
+      traversal.error = TraversalSettings::Error::conservative;
+    return traversal;
   }
 
   // Of the tile's nodes, in preorder: the smallest of their receivers.

@@ -9,11 +9,13 @@
 // and shaded.
 //
 // Corrections and deviations: formulas in node_bounds-inl.h, trees in trees/bound_node.h and
-// bound_tree.h, traversal in pair_traversal.h, visibility in pair_shading.h. A threshold is never
-// below .05 of it times the mean of the picture's pixels at hand, without which black ones were
-// refined to leaves. It is the largest of a receiver's, then the smallest of a node's, where the
-// paper takes both smallest first. The first estimate traces one ray per light node and strip of
-// receivers.
+// bound_tree.h, traversal in pair_traversal.h, visibility in pair_shading.h. Errors of omni and
+// directional lights are always conservative: a few of them may be all the light there is, and one
+// ray would decide for hundreds of receivers about a shadow that no other light softens. A
+// threshold is never below .05 of it times the mean of the picture's pixels at hand, without which
+// black ones were refined to leaves. It is the largest of a receiver's, then the smallest of a
+// node's, where the paper takes both smallest first. The first estimate traces one ray per light
+// node and strip of receivers.
 #pragma once
 
 #include <map>
