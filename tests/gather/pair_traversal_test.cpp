@@ -42,6 +42,7 @@ class Traversal : public testing::TestWithParam<TraversalSettings::ChildRule> {
                   [&](std::vector<TreePair>* pairs) {
                     *nodes += pairs->size();
                     for (const TreePair& pair : *pairs) mark(pair, &covered);
+                    return true;
                   });
     return covered;
   }
@@ -88,8 +89,20 @@ TEST_P(Traversal, ErrorsStayBelowTheThreshold) {
                     EXPECT_LT(boundPair(nodes, LightClass::diffuse, false, BoundForm::tight).upper,
                               1.001f * threshold);
                   }
+                  return true;
                 });
   EXPECT_GT(merged, 100u);
+}
+
+TEST_P(Traversal, StopsWhenToldTo) {
+  lights_.tree = randomTree(1000, BoundTree::Side::lights, {0.5f, 0, 0}, 3);
+  PairTraversal traversal(receivers_, false, lights_, settings_);
+  int calls = 0;
+  traversal.run(0, std::vector<float>(receivers_.nodes().size(), 0.f), [&](auto*) {
+    ++calls;
+    return false;
+  });
+  EXPECT_EQ(calls, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, Traversal,

@@ -67,12 +67,16 @@ class LightPairs::Run {
       std::vector<Job> jobs = jobsOf(pairing);
       if (settings_.threshold > 0) estimate(&jobs);
       const float floor = kFloorShare * meanLight();
-      forJobs(&jobs, [&](Job* job) { gather(job, floor); });
+      const double before = static_cast<double>(&pairing - kPairings);
+      std::atomic<size_t> done{0};
+      forJobs(&jobs, [&](Job* job) {
+        gather(job, floor);
+        const double share = static_cast<double>(++done) / static_cast<double>(jobs.size());
+        context_.progress("gather", (before + share) / static_cast<double>(std::size(kPairings)));
+      });
       if (context_.cancelled()) return false;
       for (const Job& job : jobs) add(job);
       for (Pixel& pixel : pixels_) pixel.estimate = 0;
-      context_.progress("gather", static_cast<double>(&pairing - kPairings + 1) /
-                                      static_cast<double>(std::size(kPairings)));
     }
     return true;
   }
@@ -184,7 +188,7 @@ class LightPairs::Run {
                             traversalOf(job->lights->lightClass));
     job->tally.bounded +=
         traversal.run(job->node, thresholdsOf(*job, floor), [&](std::vector<TreePair>* pairs) {
-          if (context_.cancelled()) return;
+          if (context_.cancelled()) return false;
           for (const TreePair& pair : *pairs) {
             const uint64_t receivers = job->receivers->tree.nodes()[pair.receivers].count;
             ++job->tally.nodes;
@@ -192,6 +196,7 @@ class LightPairs::Run {
             job->tally.covered += receivers * job->lights->tree.nodes()[pair.lights].count;
           }
           shading.add(*job->lights, pairs);
+          return true;
         });
     job->tally.traverseNs += nanosecondsNow() - start - shading.visibilityNs - shading.shadeNs;
     job->take(shading);

@@ -55,7 +55,7 @@ size_t PairTraversal::run(uint32_t receiverNode, const std::vector<float>& thres
     }
     refine(refined);
     if (accepted.size() < kAccepted) continue;
-    accept(&accepted);
+    if (!accept(&accepted)) return bounded_;
     accepted.clear();
   }
   if (!accepted.empty()) accept(&accepted);

@@ -39,8 +39,8 @@ struct TreePair {
 
 class PairTraversal {
  public:
-  // Takes pairs that need not be refined further, some thousands at once.
-  using Accept = std::function<void(std::vector<TreePair>*)>;
+  // Takes pairs that need not be refined further, some thousands at once. False: no more wanted.
+  using Accept = std::function<bool(std::vector<TreePair>*)>;
 
   // glossy: have the receivers Gaussians?
   PairTraversal(const trees::BoundTree& receivers, bool glossy, const LightForest::Tree& lights,
