@@ -5,6 +5,7 @@
 
 #include "lobelia/app/light_reduction.h"
 #include "lobelia/gather/gather_cuts.h"
+#include "lobelia/gather/gather_pairs.h"
 
 namespace lobelia::app {
 
@@ -17,6 +18,10 @@ size_t gatheredLights(size_t lights, const RenderOptions& options);
 // --sglc-mode and --cut-size, defaults filled in.
 std::string cutModeOf(const RenderOptions& options);
 size_t cutSizeOf(const RenderOptions& options);
+// Does the strategy refine pairs of nodes (--sglc-mode paper)? Its --threshold and --bound.
+bool gathersPairs(const RenderOptions& options);
+float thresholdOf(const RenderOptions& options);
+std::string boundOf(const RenderOptions& options);
 
 class LightGather {
  public:
@@ -44,7 +49,11 @@ class LightGather {
   const GatherSettings settings_;
   const RenderOptions& options_;
   const LightParts parts_;
-  std::optional<gather::LightCuts> directCuts_, indirectCuts_;  // of sglc
+  struct Trees {  // of sglc: at most one of them
+    std::optional<gather::LightCuts> cuts;
+    std::optional<gather::LightPairs> pairs;
+  };
+  Trees direct_, indirect_;
 };
 
 }  // namespace lobelia::app

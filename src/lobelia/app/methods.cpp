@@ -34,7 +34,7 @@ const std::vector<GatherStrategy>& gatherStrategies() {
        "matrix row-column sampling: few lights stand for all, chosen by a sample of pixels"},
       {"sglc",
        "shared stochastic cuts: neighbouring receivers share lights drawn by a cut of a light "
-       "tree"},
+       "tree; --sglc-mode paper: pairs of light and receiver nodes, refined by bounds"},
   };
   return strategies;
 }

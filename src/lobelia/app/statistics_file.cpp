@@ -52,6 +52,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
   const LightCounts& lights = report.lights;
   const bool gathers =
       options.lights != "path" && options.lights != "light" && options.lights != "photon";
+  const bool pairs = gathers && gathersPairs(options);
   size_t pixels = film.pixelCount();
   if (!film.alpha.empty()) {
     pixels = static_cast<size_t>(std::count(film.alpha.begin(), film.alpha.end(), 1.f));
@@ -80,8 +81,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"sets", report.sets}};
   json["gather"] = {{"strategy", gathers ? options.gather : "none"},
                     {"mode", options.gather == "sglc" && gathers ? cutModeOf(options) : ""},
-                    {"bound", ""},
-                    {"threshold", 0},
+                    {"bound", pairs ? boundOf(options) : ""},
+                    {"threshold", pairs ? thresholdOf(options) : 0.f},
                     {"error", options.error}};
   if (const ReductionReport& r = report.reduction; r.sets > 0) {
     json["gather"]["rows"] = r.rows;
@@ -90,7 +91,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
     json["gather"]["predicted_error"] = r.error(1);
     json["gather"]["predicted_error_direct"] = r.error(0);
   }
-  if (options.gather == "sglc" && gathers) json["gather"]["cut_size"] = cutSizeOf(options);
+  if (options.gather == "sglc" && gathers && !pairs)
+    json["gather"]["cut_size"] = cutSizeOf(options);
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
   json["seconds"] = secondsJson(s);
   json["counts"] = {{"shadow_rays", s.count("shadow_rays")},

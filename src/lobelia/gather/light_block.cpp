@@ -49,9 +49,7 @@ PreparedLight prepared(const GlossyLight& light) {
   r.sharpness = light.sharpness;
   r.end = liftedEnd(r.p, r.n);
   r.intensity = light.intensity;
-  // A little wider than where the exponent underflows, for the rounding of the cosine.
-  const float c = light.sharpness > 0 ? 1 - 1.01f * kZeroExponent / light.sharpness - 1e-6f : -2.f;
-  r.cutoff = c * std::abs(c);
+  r.cutoff = glossyCutoff(light.sharpness);
   return r;
 }
 
@@ -105,6 +103,12 @@ size_t upToDepth(const std::vector<uint32_t>& ends, size_t count, int depth) {
 }
 
 }  // namespace
+
+float glossyCutoff(float sharpness) {
+  // A little wider than where the exponent underflows, for the rounding of the cosine.
+  const float c = sharpness > 0 ? 1 - 1.01f * kZeroExponent / sharpness - 1e-6f : -2.f;
+  return c * std::abs(c);
+}
 
 uint16_t groupOf(const VirtualLights& lights, LightClass lightClass, size_t index) {
   const auto at = [&](const std::vector<uint16_t>& groups) {

@@ -45,6 +45,8 @@ struct LightBlock {
   SphereShading sphereShading;
 };
 
+// PreparedLight::cutoff of a glossy light.
+float glossyCutoff(float sharpness);
 // Light group of light `index` of a class.
 uint16_t groupOf(const VirtualLights& lights, LightClass lightClass, size_t index);
 size_t lightCount(const VirtualLights& lights, LightClass lightClass);

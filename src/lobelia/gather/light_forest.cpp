@@ -1,0 +1,197 @@
+#include "lobelia/gather/light_forest.h"
+
+#include <map>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/lobes/spherical_gaussian.h"
+
+namespace lobelia::gather {
+namespace {
+
+using trees::BoundItem;
+
+BoundItem itemOf(const OmniLight& light) {
+  BoundItem item;
+  item.p = light.p;
+  item.cosine = luminance(light.intensity);
+  return item;
+}
+// Its direction is the axis of a Gaussian, which gives bounds of directions; the places are all
+// one.
+BoundItem itemOf(const DirectionalLight& light) {
+  BoundItem item;
+  item.cosine = luminance(light.irradiance);
+  item.gaussianCount = 1;
+  item.gaussians[0] = {light.direction, 1, item.cosine};
+  return item;
+}
+BoundItem itemOf(const DiffuseLight& light) {
+  BoundItem item;
+  item.p = light.p;
+  item.n = decodeOctahedral(light.normal);
+  item.cosine = luminance(light.intensity);
+  return item;
+}
+BoundItem itemOf(const GlossyLight& light) {
+  BoundItem item;
+  item.p = light.p;
+  item.n = light.n;
+  item.gaussianCount = 1;
+  item.gaussians[0] = {light.axis, light.sharpness, luminance(light.intensity)};
+  return item;
+}
+BoundItem itemOf(const SphericalLight& light, const PreparedSphere& sphere) {
+  const float power = luminance(light.power);
+  BoundItem item;
+  item.p = light.p;
+  item.radius = light.radius;
+  if (!sphere.transmits) item.n = sphere.disc.n;
+  item.cosine = power * sphere.diffuse;
+  item.gaussianCount = sphere.gaussianCount;
+  for (int i = 0; i < sphere.gaussianCount; ++i) {
+    const PreparedSphere::Gaussian& g = sphere.gaussians[i];
+    item.gaussians[i] = {g.axis, g.sharpness, power * g.amplitude};
+  }
+  return item;
+}
+
+Rgb powerOf(const VirtualLights& lights, LightClass lightClass, size_t index) {
+  switch (lightClass) {
+    case LightClass::omni:
+      return lights.omni[index].intensity;
+    case LightClass::directional:
+      return lights.directional[index].irradiance;
+    case LightClass::diffuse:
+      return lights.diffuse[index].intensity;
+    case LightClass::spherical:
+      return lights.spherical[index].power;
+    case LightClass::glossy:
+      break;
+  }
+  const GlossyLight& light = lights.glossy[index];
+  return light.intensity * lobes::integral(light.sharpness);
+}
+
+class Planter {
+ public:
+  Planter(const VirtualLights& lights, const Scene& scene, const Bounds3f& bounds,
+          const std::vector<PreparedSphere>& spheres)
+      : lights_(lights), scene_(scene), scale_(2 * bounds.radius()), spheres_(spheres) {}
+
+  // indices: of the lights in the class.
+  void plant(LightClass lightClass, const std::vector<uint32_t>& indices, bool apart,
+             uint16_t group, LightForest* forest) const {
+    if (indices.empty()) return;
+    LightForest::Tree& out = forest->trees.emplace_back();
+    out.lightClass = lightClass;
+    out.apart = apart;
+    out.group = group;
+    const auto item = [&](uint32_t i) { return boundItem(lightClass, indices[i]); };
+    out.tree = trees::BoundTree(static_cast<uint32_t>(indices.size()), item,
+                                trees::BoundTree::Side::lights, scale_);
+    out.lights.resize(indices.size());
+    parallelFor(indices.size(), 4096, [&](size_t i) {
+      out.lights[i] = indices[out.tree.item(static_cast<uint32_t>(i))];
+    });
+    addUp(&out);
+  }
+
+ private:
+  BoundItem boundItem(LightClass lightClass, size_t index) const {
+    switch (lightClass) {
+      case LightClass::omni:
+        return itemOf(lights_.omni[index]);
+      case LightClass::directional:
+        return itemOf(lights_.directional[index]);
+      case LightClass::diffuse:
+        return itemOf(lights_.diffuse[index]);
+      case LightClass::glossy:
+        return itemOf(lights_.glossy[index]);
+      case LightClass::spherical:
+        break;
+    }
+    if (!spheres_.empty()) return itemOf(lights_.spherical[index], spheres_[index]);
+    PreparedSphere own;
+    prepareSphere(scene_, lights_.spherical[index], lights_.specularLimit, &own);
+    return itemOf(lights_.spherical[index], own);
+  }
+
+  // Children come after their parent in preorder.
+  void addUp(LightForest::Tree* out) const {
+    const auto nodes = out->tree.nodes();
+    out->power.resize(nodes.size());
+    for (uint32_t i = static_cast<uint32_t>(nodes.size()); i-- > 0;) {
+      out->power[i] = nodes[i].leaf()
+                          ? powerOf(lights_, out->lightClass, out->lights[nodes[i].first])
+                          : out->power[out->tree.left(i)] + out->power[out->tree.right(i)];
+    }
+  }
+
+  const VirtualLights& lights_;
+  const Scene& scene_;
+  const float scale_;
+  const std::vector<PreparedSphere>& spheres_;
+};
+
+PreparedLight merged(const trees::BoundNode& node, LightClass lightClass, Rgb power) {
+  PreparedLight light;
+  light.p = light.end = node.centre;
+  light.intensity = power;
+  if (lightClass == LightClass::directional) light.p = light.end = decodeOctahedral(node.axis);
+  if (lightClass != LightClass::diffuse && lightClass != LightClass::glossy) return light;
+  light.n = decodeOctahedral(node.n);
+  if (lightClass == LightClass::diffuse) return light;
+  light.axis = decodeOctahedral(node.axis);
+  light.sharpness = node.sharpness;
+  light.intensity = power / lobes::integral(node.sharpness);
+  light.cutoff = glossyCutoff(node.sharpness);
+  return light;
+}
+
+}  // namespace
+
+LightForest plantLights(const VirtualLights& lights, const GatherSettings& settings,
+                        int receiverDepth, const Scene& scene, const Bounds3f& bounds,
+                        const std::vector<PreparedSphere>& spheres) {
+  LightForest forest;
+  const Planter planter(lights, scene, bounds, spheres);
+  for (const LightClass lightClass : kLightClasses) {
+    const LightRange range = rangeForDepth(lights, lightClass, settings, receiverDepth);
+    // By group; first the lights that others stand for.
+    std::map<std::pair<uint16_t, bool>, std::vector<uint32_t>> trees;
+    for (size_t i = range.begin; i < range.end; ++i) {
+      const bool apart =
+          lightClass == LightClass::omni && lights.omni[i].emitter != PreparedLight::kNoPattern;
+      trees[{groupOf(lights, lightClass, i), apart}].push_back(static_cast<uint32_t>(i));
+    }
+    for (const auto& [kind, indices] : trees)
+      planter.plant(lightClass, indices, kind.second, kind.first, &forest);
+  }
+  return forest;
+}
+
+uint32_t lightOf(const LightForest::Tree& tree, uint32_t node, uint64_t key) {
+  const trees::BoundNode& n = tree.tree.nodes()[node];
+  return tree.lights[n.first + static_cast<uint32_t>((key >> 32) * n.count >> 32)];
+}
+
+void prepareNodes(const VirtualLights& lights, const Scene& scene, const LightForest::Tree& tree,
+                  std::span<const uint32_t> nodes, const std::vector<PreparedSphere>& spheres,
+                  LightBlock* block) {
+  uint32_t indices[kBlockLights];
+  for (size_t i = 0; i < nodes.size(); ++i) indices[i] = lightOf(tree, nodes[i], nodes[i]);
+  prepareChosen(lights, scene, tree.lightClass, {indices, nodes.size()}, block, spheres);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const trees::BoundNode& node = tree.tree.nodes()[nodes[i]];
+    if (node.leaf()) continue;
+    PreparedLight& light = block->lights[i];
+    if (tree.lightClass == LightClass::spherical) {
+      const Rgb power = lights.spherical[indices[i]].power;
+      light.intensity *= luminance(tree.power[nodes[i]]) / std::max(luminance(power), 1e-30f);
+    } else {
+      light = merged(node, tree.lightClass, tree.power[nodes[i]]);
+    }
+  }
+}
+
+}  // namespace lobelia::gather
