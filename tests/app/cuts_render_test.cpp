@@ -39,7 +39,7 @@ TEST_F(CutsRender, SharedRaysAreFew) {
       "--gather sglc --cut-size 300 ";
   const Film own = render(base + "--sglc-mode unbiased", "own"), shared = render(base, "shared");
   EXPECT_EQ(statistics("shared")["gather"]["mode"], "shared");
-  EXPECT_LT(3 * statistics("shared")["counts"]["rays_per_pixel"].get<double>(),
+  EXPECT_LT(2 * statistics("shared")["counts"]["rays_per_pixel"].get<double>(),
             statistics("own")["counts"]["rays_per_pixel"].get<double>());
   EXPECT_LT(compare(shared, own).l2, 0.12) << "shadows blur over a few pixels";
   EXPECT_NEAR(compare(shared, own).meanRatio, 1, 0.02);
