@@ -52,16 +52,14 @@ TEST(LightTree, EveryLightIsInOneLeaf) {
       const LightNode& node = tree.nodes()[i];
       if (node.leaf()) {
         ++leaves;
-        ++seen[tree.light(node.first) - 5];
+        ++seen[tree.light(node.link) - 5];
+        EXPECT_EQ(node.link, leaves - 1) << "in the order of the leaves";
         continue;
       }
       const LightNode &a = tree.nodes()[tree.left(i)], &b = tree.nodes()[tree.right(i)];
-      EXPECT_EQ(a.first, node.first);
-      EXPECT_EQ(b.first, node.first + a.count);
       EXPECT_EQ(a.count + b.count, node.count);
-      EXPECT_LE(b.count - a.count, 1u) << "halves";
-      todo.push_back(tree.left(i));
       todo.push_back(tree.right(i));
+      todo.push_back(tree.left(i));
     }
     EXPECT_EQ(leaves, count);
     for (const int n : seen) EXPECT_EQ(n, 1);
@@ -72,11 +70,15 @@ TEST(LightTree, EveryLightIsInOneLeaf) {
 TEST(LightTree, NodesHoldTheMomentsOfTheirLights) {
   const std::vector<TreeLight> lights = randomTreeLights(600, 3);
   const LightTree tree = treeOf(lights);
-  for (const LightNode& node : tree.nodes()) {
+  for (uint32_t index = 0; index < tree.nodes().size(); ++index) {
+    const LightNode& node = tree.nodes()[index];
+    uint32_t leftmost = index;
+    while (!tree.nodes()[leftmost].leaf()) leftmost = tree.left(leftmost);
+    const uint32_t begin = tree.nodes()[leftmost].link;
     double power = 0, diffuse = 0, glossy = 0, square = 0;
     Vec3d centre, n, first;
     const auto at = [&](uint32_t i) -> const TreeLight& {
-      return lights[tree.light(node.first + i) - 5];
+      return lights[tree.light(begin + i) - 5];
     };
     for (uint32_t i = 0; i < node.count; ++i) {
       const double w = double{kPi} * double{at(i).diffuse} + double{at(i).glossy};
@@ -123,13 +125,46 @@ TEST(LightTree, ThreadsDoNotMatter) {
   for (uint32_t i = 0; i < lights.size(); ++i) ASSERT_EQ(one.light(i), many.light(i));
 }
 
+// A few lights elsewhere soon have nodes of their own.
+TEST(LightTree, StragglersLeaveTheCrowd) {
+  std::vector<TreeLight> lights = randomTreeLights(4000, 9);
+  for (size_t i = 0; i < lights.size(); ++i)
+    lights[i].p = i % 200 == 0 ? lights[i].p + Vec3f(20.f) : lights[i].p;
+  const LightTree tree = treeOf(lights);
+  size_t mixed = 0;
+  for (const LightNode& node : tree.nodes()) mixed += node.radius > 15;
+  EXPECT_LE(mixed, 2u);
+}
+
+// Lights at one place, or of no power, are split in halves.
+TEST(LightTree, LightsAlikeMakeNoChain) {
+  for (const bool dark : {false, true}) {
+    std::vector<TreeLight> lights(3000, randomTreeLights(1, 2)[0]);
+    for (size_t i = 0; dark && i < lights.size(); ++i)
+      lights[i].diffuse = lights[i].glossy = 0,
+      lights[i].p.x = std::ldexp(1.f, static_cast<int>(i % 100));
+    const LightTree tree = treeOf(lights);
+    size_t deepest = 0;
+    std::vector<std::pair<uint32_t, size_t>> todo{{0, 1}};
+    while (!todo.empty()) {
+      const auto [i, depth] = todo.back();
+      todo.pop_back();
+      deepest = std::max(deepest, depth);
+      if (tree.nodes()[i].leaf()) continue;
+      todo.emplace_back(tree.left(i), depth + 1);
+      todo.emplace_back(tree.right(i), depth + 1);
+    }
+    EXPECT_LE(deepest, dark ? 64u : 13u);
+  }
+}
+
 // Neighbours first: a node of few lights is small.
 TEST(LightTree, NodesAreCompact) {
   const LightTree tree = treeOf(randomTreeLights(4096, 5));
   double small = 0;
   size_t count = 0;
   for (const LightNode& node : tree.nodes()) {
-    if (node.count != 16) continue;
+    if (node.count < 12 || node.count > 20) continue;
     small += double{node.radius};
     ++count;
   }

@@ -194,7 +194,7 @@ class Descents {
     const LightNode& node = tree_.nodes()[at.node];
     if (node.leaf()) {
       const float probability = static_cast<float>(at.probability);
-      drawn_[at.entry] = {tree_.light(node.first), probability, at.importance / probability};
+      drawn_[at.entry] = {tree_.light(node.link), probability, at.importance / probability};
       return;
     }
     hwy::Prefetch(&tree_.nodes()[tree_.left(at.node)]);

@@ -26,14 +26,13 @@ LightNode leafOf(const TreeLight& light, uint32_t place) {
   node.axis = light.axis;
   node.sharpness = light.sharpness;
   node.glossy = light.glossy;
-  node.first = place;
+  node.link = place;
   node.count = 1;
   return node;
 }
 
 LightNode merged(const LightNode& a, const LightNode& b) {
   LightNode node;
-  node.first = a.first;
   node.count = a.count + b.count;
   const float total = power(a) + power(b);
   // Without power all places count alike.
@@ -58,80 +57,188 @@ LightNode merged(const LightNode& a, const LightNode& b) {
   return node;
 }
 
+// Splits a run of lights in two.
+class Splitter {
+ public:
+  // What a light is split by: its place over the size of the scene, its direction, and its share of
+  // the power.
+  struct Item {
+    float x[kExtents];
+    float weight;
+    uint32_t light;
+  };
+  static Item itemOf(const TreeLight& light, uint32_t number, float inverseScale) {
+    Item item;
+    const Vec3f direction = light.mostlyGlossy() ? light.axis : light.n;
+    for (int d = 0; d < 3; ++d) {
+      item.x[d] = light.p[d] * inverseScale;
+      item.x[d + 3] = kDirectionShare * direction[d];
+    }
+    item.weight = diffusePower(light.diffuse) + light.glossy;
+    item.light = number;
+    return item;
+  }
+
+  // Sorts the items, two at least, into a left and a right part and returns the size of the left.
+  static size_t split(std::span<Item> items, bool halves) {
+    const Extents extents = extentsOf(items);
+    const int dim = extents.widest();
+    const size_t half = items.size() / 2;
+    if (halves || !(extents.hi[dim] > extents.lo[dim])) {
+      std::nth_element(items.begin(), items.begin() + static_cast<ptrdiff_t>(half), items.end(),
+                       [dim](const Item& a, const Item& b) { return a.x[dim] < b.x[dim]; });
+      return half;
+    }
+    const Bins bins(items, dim, extents.lo[dim], extents.hi[dim]);
+    const int border = bins.border();
+    const auto middle = std::partition(items.begin(), items.end(),
+                                       [&](const Item& item) { return bins.of(item) < border; });
+    return static_cast<size_t>(middle - items.begin());
+  }
+
+ private:
+  struct Extents {
+    float lo[kExtents], hi[kExtents];
+    double variance[kExtents];
+    // The dimension of the largest variance; of those alike, of the largest extent.
+    int widest() const {
+      int best = 0;
+      for (int d = 1; d < kExtents; ++d) {
+        const bool more = variance[d] > variance[best] ||
+                          (variance[d] == variance[best] && hi[d] - lo[d] > hi[best] - lo[best]);
+        if (hi[d] > lo[d] && (more || !(hi[best] > lo[best]))) best = d;
+      }
+      return best;
+    }
+  };
+  static Extents extentsOf(std::span<const Item> items) {
+    Extents extents;
+    double weight = 0, first[kExtents] = {}, second[kExtents] = {};
+    std::fill_n(extents.lo, kExtents, 3.4e38f);
+    std::fill_n(extents.hi, kExtents, -3.4e38f);
+    const float* origin = items[0].x;
+    for (const Item& item : items) {
+      weight += double{item.weight};
+      for (int d = 0; d < kExtents; ++d) {
+        extents.lo[d] = std::min(extents.lo[d], item.x[d]);
+        extents.hi[d] = std::max(extents.hi[d], item.x[d]);
+        const float x = item.x[d] - origin[d], moment = item.weight * x;
+        first[d] += double{moment}, second[d] += double{moment * x};
+      }
+    }
+    for (int d = 0; d < kExtents; ++d)
+      extents.variance[d] = weight > 0 ? second[d] - first[d] * first[d] / weight : 0;
+    return extents;
+  }
+
+  // Along one dimension.
+  class Bins {
+   public:
+    Bins(std::span<const Item> items, int dim, float lo, float hi)
+        : dim_(dim), lo_(lo), perUnit_(kCount / (hi - lo)) {
+      for (const Item& item : items) {
+        Bin& bin = bins_[of(item)];
+        const double x = double{item.x[dim]} - double{lo}, w = double{item.weight};
+        ++bin.count, bin.weight += w, bin.first += w * x;
+      }
+    }
+    int of(const Item& item) const {
+      return std::clamp(static_cast<int>((item.x[dim_] - lo_) * perUnit_), 0, kCount - 1);
+    }
+    // The first bin of the right part: where the means of both parts, by weight, differ most.
+    int border() const {
+      Bin all;
+      for (const Bin& bin : bins_) all.add(bin);
+      Bin left;
+      int best = kCount / 2;
+      double most = -1;
+      for (int i = 1; i < kCount; ++i) {
+        left.add(bins_[i - 1]);
+        if (left.count == 0 || left.count == all.count) continue;
+        const double right = all.weight - left.weight;
+        double apart = 0;
+        if (left.weight > 0 && right > 0) {
+          const double difference = left.first / left.weight - (all.first - left.first) / right;
+          apart = left.weight * right * difference * difference;
+        }
+        if (apart > most) best = i, most = apart;
+      }
+      return best;
+    }
+
+   private:
+    static constexpr int kCount = 32;
+    struct Bin {
+      size_t count = 0;
+      double weight = 0, first = 0;
+      void add(const Bin& bin) { count += bin.count, weight += bin.weight, first += bin.first; }
+    };
+    const int dim_;
+    const float lo_, perUnit_;
+    Bin bins_[kCount];
+  };
+};
+
 class Builder {
  public:
-  Builder(const std::vector<TreeLight>& lights, float scale, std::vector<LightNode>* nodes,
-          std::vector<uint32_t>* order)
-      : lights_(lights),
-        inverseScale_(1 / std::max(scale, 1e-30f)),
-        nodes_(*nodes),
-        order_(*order) {}
+  using Item = Splitter::Item;
+
+  Builder(const std::vector<TreeLight>& lights, float scale, std::vector<LightNode>* nodes)
+      : lights_(lights), nodes_(*nodes), items_(lights.size()) {
+    const float inverseScale = 1 / std::max(scale, 1e-30f);
+    parallelFor(items_.size(), 4096, [&](size_t i) {
+      items_[i] = Splitter::itemOf(lights[i], static_cast<uint32_t>(i), inverseScale);
+    });
+  }
 
   // Level by level down, then up again.
   void run() {
-    const uint32_t n = static_cast<uint32_t>(lights_.size());
-    order_.resize(n);
-    for (uint32_t i = 0; i < n; ++i) order_[i] = i;
     nodes_.resize(2 * lights_.size() - 1);
-    std::vector<std::vector<Range>> levels{{{0, 0, n}}};
+    std::vector<std::vector<Range>> levels{{{0, 0, static_cast<uint32_t>(lights_.size()), 0}}};
     while (!levels.back().empty()) {
-      const std::vector<Range>& level = levels.back();
-      parallelFor(level.size(), level.size() > 64 ? 16 : 1, [&](size_t i) { split(level[i]); });
+      std::vector<Range>& level = levels.back();
+      const bool halves = levels.size() > kLevelsByVariance;
+      parallelFor(level.size(), level.size() > 64 ? 16 : 1, [&](size_t i) {
+        Range& range = level[i];
+        if (range.count == 1) return;
+        const std::span<Item> items(items_.data() + range.first, range.count);
+        range.left = static_cast<uint32_t>(Splitter::split(items, halves));
+      });
       std::vector<Range> next;
       for (const Range& range : level) {
         if (range.count == 1) continue;
-        const uint32_t half = range.count / 2;
-        next.push_back({range.node + 1, range.first, half});
-        next.push_back({range.node + 2 * half, range.first + half, range.count - half});
+        next.push_back({range.node + 1, range.first, range.left, 0});
+        next.push_back({range.right(), range.first + range.left, range.count - range.left, 0});
       }
       levels.push_back(std::move(next));
     }
     for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
       parallelFor(level->size(), 256, [&](size_t i) {
         const Range& range = (*level)[i];
-        nodes_[range.node] = range.count == 1 ? leafOf(lights_[order_[range.first]], range.first)
-                                              : merged(nodes_[range.node + 1],
-                                                       nodes_[range.node + 2 * (range.count / 2)]);
+        LightNode& node = nodes_[range.node];
+        if (range.count == 1) {
+          node = leafOf(lights_[lightAt(range.first)], range.first);
+        } else {
+          node = merged(nodes_[range.node + 1], nodes_[range.right()]);
+          node.link = range.right();
+        }
       });
     }
   }
+  // After run().
+  uint32_t lightAt(size_t place) const { return items_[place].light; }
 
  private:
+  // Below, nodes are cut in halves: trees are never deep.
+  static constexpr size_t kLevelsByVariance = 48;
   struct Range {
-    uint32_t node, first, count;
+    uint32_t node, first, count, left;
+    uint32_t right() const { return node + 2 * left; }
   };
 
-  float coordinate(const TreeLight& light, int dim) const {
-    if (dim < 3) return light.p[dim] * inverseScale_;
-    return kDirectionShare * (light.mostlyGlossy() ? light.axis : light.n)[dim - 3];
-  }
-
-  void split(const Range& range) {
-    if (range.count < 2) return;
-    float lo[kExtents], hi[kExtents];
-    std::fill_n(lo, kExtents, 3.4e38f);
-    std::fill_n(hi, kExtents, -3.4e38f);
-    const auto begin = order_.begin() + range.first, end = begin + range.count;
-    for (auto it = begin; it != end; ++it) {
-      for (int d = 0; d < kExtents; ++d) {
-        const float x = coordinate(lights_[*it], d);
-        lo[d] = std::min(lo[d], x), hi[d] = std::max(hi[d], x);
-      }
-    }
-    int widest = 0;
-    for (int d = 1; d < kExtents; ++d)
-      if (hi[d] - lo[d] > hi[widest] - lo[widest]) widest = d;
-    std::vector<std::pair<float, uint32_t>> keys;
-    keys.reserve(range.count);
-    for (auto it = begin; it != end; ++it) keys.emplace_back(coordinate(lights_[*it], widest), *it);
-    std::nth_element(keys.begin(), keys.begin() + range.count / 2, keys.end());
-    for (uint32_t i = 0; i < range.count; ++i) begin[i] = keys[i].second;
-  }
-
   const std::vector<TreeLight>& lights_;
-  const float inverseScale_;
   std::vector<LightNode>& nodes_;
-  std::vector<uint32_t>& order_;
+  std::vector<Item> items_;
 };
 
 }  // namespace
@@ -139,8 +246,10 @@ class Builder {
 LightTree::LightTree(const std::vector<TreeLight>& lights, const std::vector<uint32_t>& numbers,
                      float scale) {
   if (lights.empty()) return;
-  Builder(lights, scale, &nodes_, &lights_).run();
-  for (uint32_t& light : lights_) light = numbers[light];
+  Builder builder(lights, scale, &nodes_);
+  builder.run();
+  lights_.resize(lights.size());
+  for (size_t i = 0; i < lights.size(); ++i) lights_[i] = numbers[builder.lightAt(i)];
 }
 
 }  // namespace lobelia::trees

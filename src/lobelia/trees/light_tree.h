@@ -6,8 +6,8 @@
 //
 // Deviations from [P000 section 4.1]: one tree for all classes (a light may have both lobes);
 // Gaussians merge by their moments, which keep energy and mean direction, where the paper's means
-// of sharpness and amplitude lose energy (docs/lobes.md); nodes are cut in the middle of their
-// widest extent, of places and directions, where the paper sorts by its metric.
+// of sharpness and amplitude lose energy (docs/lobes.md); nodes are split where that leaves the
+// least variance, of places and directions, by power, where the paper sorts by its metric.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,8 @@ struct LightNode {
   Vec3f axis{0, 0, 1};
   float sharpness = 0;
   float glossy = 0;
-  float radius = 0;    // all lights lie within this distance of the centre
-  uint32_t first = 0;  // its lights are LightTree::light(first + i)
+  float radius = 0;   // all lights lie within this distance of the centre
+  uint32_t link = 0;  // inner nodes: the right child; leaves: the place of the light
   uint32_t count = 0;
   bool leaf() const { return count == 1; }
 };
@@ -60,7 +60,7 @@ class LightTree {
   std::span<const LightNode> nodes() const { return nodes_; }
   // Children of an inner node i.
   uint32_t left(uint32_t i) const { return i + 1; }
-  uint32_t right(uint32_t i) const { return i + 2 * (nodes_[i].count / 2); }
+  uint32_t right(uint32_t i) const { return nodes_[i].link; }
   // Number of the light at a place of the leaves' order.
   uint32_t light(uint32_t place) const { return lights_[place]; }
 
