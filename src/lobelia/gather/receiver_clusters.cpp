@@ -7,7 +7,8 @@
 namespace lobelia::gather {
 namespace {
 
-// A difference of normals of 1 counts as much as this share of the scene's size.
+// A difference of normals of 1 counts as much as this share of the scene's size, or as the points'
+// extent where that is less.
 constexpr float kNormalShare = 0.05f;
 // Pixels of a compact cluster lie in a square of this side, those of others in one twice as wide.
 constexpr uint32_t kCompactSide = 32;
@@ -30,14 +31,20 @@ class Clusters {
     const uint32_t side = count > strip ? 0 : sideOf(begin, end);
     if (count <= strip && (count == 1 || side <= 2 * kCompactSide)) return add(begin, end, side);
     int widest = 0;
-    float extent = -1;
+    float extent = -1, places = 0;
     for (int dim = 0; dim < 6; ++dim) {
       float lo = 3.4e38f, hi = -3.4e38f;
       for (size_t i = begin; i < end; ++i) {
         const float x = coordinate(out_.order[i], dim);
         lo = std::min(lo, x), hi = std::max(hi, x);
       }
-      if (hi - lo > extent) widest = dim, extent = hi - lo;
+      float size = hi - lo;
+      // Where points are near each other already, how they are turned counts the less.
+      if (dim < 3)
+        places = std::max(places, size);
+      else
+        size *= std::min(1.f, places);
+      if (size > extent) widest = dim, extent = size;
     }
     const size_t half = count > strip ? (count / 2 + strip - 1) / strip * strip : count / 2;
     const auto first = out_.order.begin() + static_cast<ptrdiff_t>(begin);
