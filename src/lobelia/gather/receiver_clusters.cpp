@@ -7,9 +7,10 @@
 namespace lobelia::gather {
 namespace {
 
-// A difference of normals of 1 counts as much as this share of the scene's size, or as the points'
-// extent where that is less.
+// A difference of normals of 1 counts as much as this share of the scene's size, or, unless it is
+// that of an edge, as the points' extent where that is less.
 constexpr float kNormalShare = 0.05f;
+constexpr float kTurned = 0.9f;
 // Pixels of a compact cluster lie in a square of this side, those of others in one twice as wide.
 constexpr uint32_t kCompactSide = 32;
 // And its points lie within this share of the scene's size, and their normals agree.
@@ -39,10 +40,9 @@ class Clusters {
         lo = std::min(lo, x), hi = std::max(hi, x);
       }
       float size = hi - lo;
-      // Where points are near each other already, how they are turned counts the less.
       if (dim < 3)
         places = std::max(places, size);
-      else
+      else if (size < kTurned)
         size *= std::min(1.f, places);
       if (size > extent) widest = dim, extent = size;
     }
