@@ -120,6 +120,11 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--near-field", fmt::format("{}", o.nearField));
     s.emplace_back("--memory", std::to_string(o.memory));
   }
+  if (o.gather == "lightslice") {
+    s.emplace_back("--slices", std::to_string(slicesOf(o)));
+    s.emplace_back("--columns", std::to_string(sliceColumnsOf(o)));
+    s.emplace_back("--memory", std::to_string(o.memory));
+  }
   if (o.gather == "sglc") {
     s.emplace_back("--sglc-mode", cutModeOf(o));
     s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));

@@ -1,18 +1,24 @@
 #include "lobelia/app/light_gather.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "lobelia/app/receiver_sample.h"
 #include "lobelia/base/error.h"
 #include "lobelia/base/random.h"
+#include "lobelia/gather/gather_cuts.h"
+#include "lobelia/gather/light_slices.h"
 
 namespace lobelia::app {
 namespace {
 
 constexpr uint64_t kStream = 0x73676c63;  // of everything random here
 
-gather::CutGatherSettings settingsFor(const RenderOptions& options, const BandPlan& plan,
+using Prepared = std::unique_ptr<gather::PreparedGather>;
+
+gather::CutGatherSettings cutSettings(const RenderOptions& options, const BandPlan& plan,
                                       int width) {
   gather::CutGatherSettings settings;
   settings.gather = plan.gather;
@@ -20,6 +26,21 @@ gather::CutGatherSettings settingsFor(const RenderOptions& options, const BandPl
   settings.shared = cutModeOf(options) == "shared";
   settings.width = width;
   return settings;
+}
+
+gather::SliceSettings sliceSettings(const RenderOptions& options, const BandPlan& plan) {
+  gather::SliceSettings settings;
+  settings.gather = plan.gather;
+  settings.slices = slicesOf(options);
+  settings.columns = sliceColumnsOf(options);
+  settings.memory = options.memory;
+  return settings;
+}
+
+// Pixels of which slices are made.
+size_t slicedPixels(const RenderOptions& options) {
+  constexpr size_t kPixelsPerSlice = 64;
+  return kPixelsPerSlice * slicesOf(options);
 }
 
 }  // namespace
@@ -38,43 +59,69 @@ void requireGather(const RenderOptions& options) {
         options.gather, options.lights));
   }
   struct Owned {
-    const char *name, *strategy;
+    const char* name;
+    std::vector<std::string> strategies;
     bool given;
   };
-  for (const auto& [name, strategy, given] :
-       {Owned{"--rows", "mrcs", options.rows > 0}, Owned{"--columns", "mrcs", options.columns > 0},
-        Owned{"--sketch", "mrcs", !options.sketch.empty()},
-        Owned{"--column-scale", "mrcs", options.columnScale != "scalar"},
-        Owned{"--near-field", "mrcs", options.nearField >= 0},
-        Owned{"--error", "mrcs", options.error > 0},
-        Owned{"--sglc-mode", "sglc", !options.cutMode.empty()},
-        Owned{"--cut-size", "sglc", options.cutSize > 0}}) {
-    if (given && options.gather != strategy)
+  for (const auto& [name, strategies, given] :
+       {Owned{"--rows", {"mrcs"}, options.rows > 0},
+        Owned{"--columns", {"mrcs", "lightslice"}, options.columns > 0},
+        Owned{"--slices", {"lightslice"}, options.slices > 0},
+        Owned{"--sketch", {"mrcs"}, !options.sketch.empty()},
+        Owned{"--column-scale", {"mrcs"}, options.columnScale != "scalar"},
+        Owned{"--near-field", {"mrcs"}, options.nearField >= 0},
+        Owned{"--error", {"mrcs"}, options.error > 0},
+        Owned{"--sglc-mode", {"sglc"}, !options.cutMode.empty()},
+        Owned{"--cut-size", {"sglc"}, options.cutSize > 0}}) {
+    if (given &&
+        std::find(strategies.begin(), strategies.end(), options.gather) == strategies.end())
       throw UsageError(fmt::format("{} is for --gather {}; --gather {} has no use for it", name,
-                                   strategy, options.gather));
+                                   fmt::join(strategies, ", "), options.gather));
   }
   requireSketch(options);
+}
+
+size_t slicesOf(const RenderOptions& options) {
+  return options.slices > 0 ? options.slices : gather::SliceSettings().slices;
+}
+size_t sliceColumnsOf(const RenderOptions& options) {
+  return options.columns > 0 ? options.columns : gather::SliceSettings().columns;
 }
 
 size_t gatheredLights(size_t lights, const RenderOptions& options) {
   // A light of a cut costs a few times a pair of brute force: choosing it.
   constexpr size_t kCostOfChoice = 4;
   if (options.gather == "sglc") return std::min(lights, kCostOfChoice * cutSizeOf(options));
+  if (options.gather == "lightslice") return std::min(lights, sliceColumnsOf(options));
   return options.gather == "mrcs" ? std::min(lights, mostColumns(options)) : lights;
 }
 
-LightGather::LightGather(const Tracer& tracer, const BandPlan& plan, int set, int width,
-                         LightParts parts, const RenderOptions& options, Context& context)
+LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+                         const BandPlan& plan, int set, LightParts parts,
+                         const RenderOptions& options, Context& context)
     : tracer_(tracer), settings_(plan.gather), options_(options), parts_(std::move(parts)) {
-  if (options.gather != "sglc") return;
-  gather::CutGatherSettings settings = settingsFor(options, plan, width);
   const uint64_t seed = hashCombine(hashCombine(context.seed, kStream), static_cast<uint64_t>(set));
-  for (const auto& [lights, cuts, number] : {std::tuple{&parts_.direct, &directCuts_, 0},
-                                             std::tuple{&parts_.indirect, &indirectCuts_, 1}}) {
-    settings.seed = hashCombine(seed, static_cast<uint64_t>(number));
-    if (number == 1 && options.component == "direct") continue;
-    if (lights->size() > 0) cuts->emplace(tracer, *lights, settings, context);
-  }
+  std::optional<Receivers> sample;  // for both parts
+  const auto prepare = [&](const VirtualLights& lights, uint64_t number) -> Prepared {
+    const uint64_t own = hashCombine(seed, number);
+    if (lights.size() == 0 || context.cancelled()) return nullptr;
+    if (options.gather == "sglc") {
+      gather::CutGatherSettings settings =
+          cutSettings(options, plan, camera.cropX1 - camera.cropX0);
+      settings.seed = own;
+      return std::make_unique<gather::LightCuts>(tracer, lights, settings, context);
+    }
+    if (options.gather != "lightslice") return nullptr;
+    gather::SliceSettings settings = sliceSettings(options, plan);
+    settings.seed = own;
+    if (!sample) {
+      const PixelSet pixels = choosePixelSample(camera, plan, slicedPixels(options), seed).pixels;
+      sample = traceSample(tracer, emitters, camera, plan, set, pixels, context);
+    }
+    return std::make_unique<gather::LightSlices>(tracer, *sample, lights, settings, context);
+  };
+  direct_ = prepare(parts_.direct, 0);
+  if (options.component != "direct") indirect_ = prepare(parts_.indirect, 1);
 }
 
 LightGather::Light LightGather::gather(const Receivers& run,
@@ -85,20 +132,20 @@ LightGather::Light LightGather::gather(const Receivers& run,
   light.indirect.resize(run.points.size());
   GatherSettings settings = settings_;
   settings.onlyPixel = onlyPixel;
-  const auto add = [&](const VirtualLights& lights, const std::optional<gather::LightCuts>& cuts,
-                       size_t layer, std::vector<Rgb>* sum) {
+  const auto add = [&](const VirtualLights& lights, const Prepared& prepared, size_t layer,
+                       std::vector<Rgb>* sum) {
     if (lights.size() == 0) return;
     std::optional<GatherParts>& parts = light.layers[layer] = wanted;
-    if (cuts) {
-      cuts->gather(run, onlyPixel, *sum, context, parts ? &*parts : nullptr);
+    if (prepared) {
+      prepared->gather(run, onlyPixel, *sum, context, parts ? &*parts : nullptr);
     } else {
       gatherAll(tracer_, run, lights, settings, *sum, context, parts ? &*parts : nullptr);
     }
   };
-  add(parts_.direct, directCuts_, 0, &light.direct);
+  add(parts_.direct, direct_, 0, &light.direct);
   add(parts_.nearDirect, {}, 1, &light.direct);
   if (options_.component == "direct") return light;
-  add(parts_.indirect, indirectCuts_, 2, &light.indirect);
+  add(parts_.indirect, indirect_, 2, &light.indirect);
   add(parts_.nearIndirect, {}, 3, &light.indirect);
   return light;
 }

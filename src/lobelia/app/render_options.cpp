@@ -121,9 +121,15 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->check(integerRange(1, int64_t{1} << 20));
   c.add_option("--columns", o.columns,
                "--gather mrcs: lights per set that stand for all, with --error at most; default: "
-               "by an error of 0.02, at most 16384")
+               "by an error of 0.02, at most 16384. --gather lightslice: lights that stand for all "
+               "in a slice; default: 400")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 31));
+  c.add_option("--slices", o.slices,
+               "--gather lightslice: groups of like receivers, each with lights of its own; "
+               "default: 400")
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 20));
   c.add_option("--error", o.error,
                "--gather mrcs: relative error aimed at in the gathered light, 0.01 = 1 %")
       ->type_name("R")
@@ -145,7 +151,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("K")
       ->check(finiteNumber(0, 1000));
   c.add_option("--memory", o.memory,
-               "--gather mrcs: memory for what is kept of all lights; units K, M, G")
+               "--gather mrcs, lightslice: memory for what is kept of all lights; units K, M, G")
       ->type_name("BYTES")
       ->transform(byteCount());
   c.add_option("--sglc-mode", o.cutMode,

@@ -38,9 +38,11 @@ struct RenderOptions {
   uint64_t photonsNearest = 50;
   double photonRadius = 0;  // 0: a tenth of the scene's
   int gatherRays = 4;       // of --lights photon
-  size_t rows = 0, columns = 0;  // of --gather mrcs; 0: the method's default
-  double error = 0;              // relative error aimed at; 0: the method's default
-  std::string sketch;            // numbers kept of each column, "off"; "": the method's default
+  size_t rows = 0;          // of --gather mrcs; 0: the method's default
+  size_t columns = 0;       // of mrcs and lightslice; 0: the method's default
+  size_t slices = 0;        // of lightslice; 0: the default
+  double error = 0;         // relative error aimed at; 0: the method's default
+  std::string sketch;       // numbers kept of each column, "off"; "": the method's default
   std::string columnScale = "scalar";
   float nearField = -1;                 // of spherical lights, in radii; below 0: the default
   uint64_t memory = uint64_t{2} << 30;  // bytes for columns

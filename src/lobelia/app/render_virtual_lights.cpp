@@ -98,7 +98,7 @@ class VirtualLightRender {
     parts = reduceParts(tracer_, emitters_, camera_, plan_, set, std::move(parts), options_,
                         &report_.reduction, context_);
     if (context_.cancelled()) return;
-    lights_.emplace(tracer_, plan_, set, film_.width, std::move(parts), options_, context_);
+    lights_.emplace(tracer_, emitters_, camera_, plan_, set, std::move(parts), options_, context_);
     if (context_.cancelled()) return;
     set_ = ready_ = set;
     markCounts();

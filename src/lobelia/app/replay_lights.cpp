@@ -82,7 +82,8 @@ class LightReplay {
     ReductionReport unused;
     LightParts parts = reduceParts(run_.tracer, run_.emitters, camera_, plan_, set,
                                    splitLights(std::move(lights)), options_, &unused, context_);
-    lights_.emplace(run_.tracer, plan_, set, film_.width, std::move(parts), options_, context_);
+    lights_.emplace(run_.tracer, run_.emitters, camera_, plan_, set, std::move(parts), options_,
+                    context_);
     set_ = set;
   }
 

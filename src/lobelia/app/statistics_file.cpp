@@ -32,7 +32,8 @@ Json secondsJson(const Statistics& statistics) {
   return out;
 }
 
-// Of --gather sglc: lights that a drawn one stands for, receivers that share it. Else 1 each.
+// Where receivers share lights that stand for others: how many each stands for, how many receivers
+// share it. Else 1 each.
 double lightsPerNode(const VirtualLightReport& report, const Statistics& s) {
   if (s.count("cut_lights") == 0) return report.lights.total > 0 ? 1 : 0;
   return ratio(static_cast<double>(s.count("clustered_lights")),
@@ -89,6 +90,10 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
     json["gather"]["sketch"] = r.sketch;
     json["gather"]["predicted_error"] = r.error(1);
     json["gather"]["predicted_error_direct"] = r.error(0);
+  }
+  if (options.gather == "lightslice" && gathers) {
+    json["gather"]["slices"] = slicesOf(options);
+    json["gather"]["columns"] = sliceColumnsOf(options);
   }
   if (options.gather == "sglc" && gathers) json["gather"]["cut_size"] = cutSizeOf(options);
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
