@@ -10,6 +10,8 @@
 #include "lobelia/base/random.h"
 #include "lobelia/gather/gather_cuts.h"
 #include "lobelia/gather/light_slices.h"
+#include "lobelia/gather/lightcuts.h"
+#include "lobelia/gather/stochastic_lightcuts.h"
 
 namespace lobelia::app {
 namespace {
@@ -37,6 +39,22 @@ gather::SliceSettings sliceSettings(const RenderOptions& options, const BandPlan
   return settings;
 }
 
+gather::LightcutsSettings lightcutsSettings(const RenderOptions& options, const BandPlan& plan) {
+  gather::LightcutsSettings settings;
+  settings.gather = plan.gather;
+  settings.threshold = thresholdOf(options);
+  settings.cutSize = cutSizeOf(options);
+  return settings;
+}
+
+gather::StochasticSettings stochasticSettings(const RenderOptions& options, const BandPlan& plan) {
+  gather::StochasticSettings settings;
+  settings.gather = plan.gather;
+  settings.threshold = thresholdOf(options);
+  settings.cutSize = cutSizeOf(options);
+  return settings;
+}
+
 // Pixels of which slices are made.
 size_t slicedPixels(const RenderOptions& options) {
   constexpr size_t kPixelsPerSlice = 64;
@@ -49,7 +67,15 @@ std::string cutModeOf(const RenderOptions& options) {
   return options.cutMode.empty() ? "shared" : options.cutMode;
 }
 size_t cutSizeOf(const RenderOptions& options) {
-  return options.cutSize > 0 ? options.cutSize : gather::CutSettings().nodes;
+  if (options.cutSize > 0) return options.cutSize;
+  if (options.gather == "lightcuts") return gather::LightcutsSettings().cutSize;
+  if (options.gather == "stochastic") return gather::StochasticSettings().cutSize;
+  return gather::CutSettings().nodes;
+}
+float thresholdOf(const RenderOptions& options) {
+  if (options.threshold >= 0) return options.threshold;
+  return options.gather == "stochastic" ? gather::StochasticSettings().threshold
+                                        : gather::LightcutsSettings().threshold;
 }
 
 void requireGather(const RenderOptions& options) {
@@ -72,7 +98,8 @@ void requireGather(const RenderOptions& options) {
         Owned{"--near-field", {"mrcs"}, options.nearField >= 0},
         Owned{"--error", {"mrcs"}, options.error > 0},
         Owned{"--sglc-mode", {"sglc"}, !options.cutMode.empty()},
-        Owned{"--cut-size", {"sglc"}, options.cutSize > 0}}) {
+        Owned{"--cut-size", {"sglc", "lightcuts", "stochastic"}, options.cutSize > 0},
+        Owned{"--threshold", {"lightcuts", "stochastic"}, options.threshold >= 0}}) {
     if (given &&
         std::find(strategies.begin(), strategies.end(), options.gather) == strategies.end())
       throw UsageError(fmt::format("{} is for --gather {}; --gather {} has no use for it", name,
@@ -91,7 +118,8 @@ size_t sliceColumnsOf(const RenderOptions& options) {
 size_t gatheredLights(size_t lights, const RenderOptions& options) {
   // A light of a cut costs a few times a pair of brute force: choosing it.
   constexpr size_t kCostOfChoice = 4;
-  if (options.gather == "sglc") return std::min(lights, kCostOfChoice * cutSizeOf(options));
+  if (options.gather == "sglc" || options.gather == "lightcuts" || options.gather == "stochastic")
+    return std::min(lights, kCostOfChoice * cutSizeOf(options));
   if (options.gather == "lightslice") return std::min(lights, sliceColumnsOf(options));
   return options.gather == "mrcs" ? std::min(lights, mostColumns(options)) : lights;
 }
@@ -110,6 +138,16 @@ LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, c
           cutSettings(options, plan, camera.cropX1 - camera.cropX0);
       settings.seed = own;
       return std::make_unique<gather::LightCuts>(tracer, lights, settings, context);
+    }
+    if (options.gather == "lightcuts") {
+      gather::LightcutsSettings settings = lightcutsSettings(options, plan);
+      settings.seed = own;
+      return std::make_unique<gather::Lightcuts>(tracer, lights, settings, context);
+    }
+    if (options.gather == "stochastic") {
+      gather::StochasticSettings settings = stochasticSettings(options, plan);
+      settings.seed = own;
+      return std::make_unique<gather::StochasticLightcuts>(tracer, lights, settings, context);
     }
     if (options.gather != "lightslice") return nullptr;
     gather::SliceSettings settings = sliceSettings(options, plan);

@@ -18,6 +18,7 @@ size_t gatheredLights(size_t lights, const RenderOptions& options);
 // Options with the strategy's defaults filled in.
 std::string cutModeOf(const RenderOptions& options);
 size_t cutSizeOf(const RenderOptions& options);
+float thresholdOf(const RenderOptions& options);
 size_t slicesOf(const RenderOptions& options);
 size_t sliceColumnsOf(const RenderOptions& options);
 

@@ -10,7 +10,8 @@
 namespace lobelia::app {
 
 const std::vector<LightModel>& lightModels() {
-  static const std::vector<std::string> everyStrategy{"all", "mrcs", "lightslice", "sglc"};
+  static const std::vector<std::string> everyStrategy{"all",       "mrcs",       "lightslice",
+                                                      "lightcuts", "stochastic", "sglc"};
   static const std::vector<LightModel> models{
       {"path",
        "reference path tracing: next-event estimation and BSDF sampling, no virtual lights",
@@ -34,6 +35,10 @@ const std::vector<GatherStrategy>& gatherStrategies() {
        "matrix row-column sampling: few lights stand for all, chosen by a sample of pixels"},
       {"lightslice",
        "LightSlice: groups of like receivers have few lights of their own that stand for all"},
+      {"lightcuts",
+       "Lightcuts: every receiver has a cut of a light tree of its own, refined by upper bounds"},
+      {"stochastic",
+       "stochastic lightcuts: the same, with one light drawn below every node, without bias"},
       {"sglc",
        "shared stochastic cuts: neighbouring receivers share lights drawn by a cut of a light "
        "tree"},

@@ -160,9 +160,17 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("MODE")
       ->check(oneOf({"shared", "unbiased"}));
   c.add_option("--cut-size", o.cutSize,
-               "--gather sglc: lights that a cluster of receivers gathers, at most; default: 1024")
+               "--gather sglc: lights that a cluster of receivers gathers, at most; default: 1024. "
+               "lightcuts, stochastic: nodes of a receiver's cut, at most; default: 1000, 256")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 24));
+  c.add_option(
+       "--threshold", o.threshold,
+       "--gather lightcuts, stochastic: share of a receiver's light below which the bound of "
+       "a node's must be, unless the cut is full; 0: only its size limits it; default: "
+       "lightcuts 0.02, stochastic 0")
+      ->type_name("R")
+      ->check(finiteNumber(0, 1));
   c.add_option("--env-lights", o.environmentLights,
                "With --direct lights: directional lights per environment")
       ->type_name("N")

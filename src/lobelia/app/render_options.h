@@ -47,7 +47,8 @@ struct RenderOptions {
   float nearField = -1;                 // of spherical lights, in radii; below 0: the default
   uint64_t memory = uint64_t{2} << 30;  // bytes for columns
   std::string cutMode;                  // of --gather sglc; "": the default
-  size_t cutSize = 0;                   // 0: the default
+  size_t cutSize = 0;                   // of cuts of light trees; 0: the strategy's default
+  float threshold = -1;                 // of bounds, over all light; below 0: the default
   std::string direct = "nee";
   float radius = 0;  // of spherical lights, over the tenth neighbour's distance; 0: automatic
   std::string sphereIndicator = "planar", sphereSampling = "product";

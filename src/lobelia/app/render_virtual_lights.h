@@ -14,7 +14,7 @@ struct VirtualLightReport {  // for --stats
   LightCounts lights;        // the first set
   int sets = 1;              // independent sets that were averaged
   ReductionReport reduction;
-  uint64_t photons = 0;  // of the first set (--lights photon)
+  uint64_t photons = 0;      // of the first set (--lights photon)
   uint64_t diffuseReceivers = 0, glossyReceivers = 0, receiverPoints = 0;
 };
 

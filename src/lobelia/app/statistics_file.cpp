@@ -79,10 +79,12 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"photons", report.photons},
                     {"particles", lights.particles},
                     {"sets", report.sets}};
+  const bool hasThreshold =
+      gathers && (options.gather == "lightcuts" || options.gather == "stochastic");
   json["gather"] = {{"strategy", gathers ? options.gather : "none"},
                     {"mode", options.gather == "sglc" && gathers ? cutModeOf(options) : ""},
                     {"bound", ""},
-                    {"threshold", 0},
+                    {"threshold", hasThreshold ? thresholdOf(options) : 0},
                     {"error", options.error}};
   if (const ReductionReport& r = report.reduction; r.sets > 0) {
     json["gather"]["rows"] = r.rows;
@@ -95,7 +97,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
     json["gather"]["slices"] = slicesOf(options);
     json["gather"]["columns"] = sliceColumnsOf(options);
   }
-  if (options.gather == "sglc" && gathers) json["gather"]["cut_size"] = cutSizeOf(options);
+  if (hasThreshold || (options.gather == "sglc" && gathers))
+    json["gather"]["cut_size"] = cutSizeOf(options);
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
   json["seconds"] = secondsJson(s);
   json["counts"] = {{"shadow_rays", s.count("shadow_rays")},
