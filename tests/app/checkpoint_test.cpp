@@ -137,6 +137,15 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"sglc",
                            "--lights vsl --size 48x40 --spp 6 --passes 3 --num-lights 2000 "
                            "--gather sglc --cut-size 50 --aov direct,indirect,variance,cost,types"},
+                    Method{"lightslice",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather lightslice "
+                           "--columns 60 --slices 20 --aov direct,indirect,variance,cost"},
+                    Method{"lightcuts",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather lightcuts "
+                           "--cut-size 60 --aov direct,indirect,variance,cost,types"},
+                    Method{"stochastic",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather stochastic "
+                           "--cut-size 30 --aov direct,indirect,variance,cost"},
                     Method{"pixels",
                            "--lights vpl --size 64x64 --pixels 500 --spp 8 "
                            "--num-lights 500 --passes 2 --direct lights"},

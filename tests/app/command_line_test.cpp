@@ -61,8 +61,10 @@ TEST(CommandLine, FileSizeLimitsLeaveNothing) {
 // Every second is booked once: stages do not add up to more than the whole.
 TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
   const TemporaryFolder folder;
-  for (const char* method : {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs",
-                             "vsl --gather sglc", "vpl --compensate", "photon"}) {
+  for (const char* method :
+       {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs", "vsl --gather sglc",
+        "glossy --gather lightslice", "glossy --gather lightcuts", "glossy --gather stochastic",
+        "vpl --compensate", "photon"}) {
     ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
                          " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
                   .exitCode,
@@ -115,9 +117,12 @@ TEST(CommandLine, RenderWritesPicturesAovsStatisticsAndMetadata) {
 
 TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
   const TemporaryFolder folder;
-  for (const char* method : {"path", "light", "glossy", "vpl", "vsl", "vsl --gather mrcs",
-                             "vsl --gather sglc --cut-size 20", "vpl --gather sglc --cut-size 20",
-                             "glossy --compensate", "photon"}) {
+  for (const char* method :
+       {"path", "light", "glossy", "vpl", "vsl", "vsl --gather mrcs",
+        "vsl --gather sglc --cut-size 20", "vpl --gather sglc --cut-size 20",
+        "glossy --gather lightslice --columns 20 --slices 10",
+        "vsl --gather lightcuts --cut-size 20", "glossy --gather stochastic --cut-size 20",
+        "glossy --compensate", "photon"}) {
     const auto render = [&](int threads, const char* seed) {
       const std::string file = folder / (std::to_string(threads) + seed + ".exr");
       const ProgramResult r =

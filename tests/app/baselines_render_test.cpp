@@ -1,0 +1,98 @@
+// `render --gather lightslice`, `lightcuts` and `stochastic` as a user types them.
+#include "app/render_test.h"
+#include "lobelia/film/metrics.h"
+
+namespace lobelia {
+namespace {
+
+using BaselinesRender = test::RenderTest;
+
+const std::string kBase =
+    "--lights glossy --clamp 1 --size 64x48 --spp 1 --num-lights 3000 --component indirect "
+    "--seed 2 ";
+
+TEST_F(BaselinesRender, LightSlice) {
+  const Film all = render(kBase, "all");
+  double before = 1;
+  for (const int columns : {50, 200, 800}) {
+    const std::string name = std::to_string(columns);
+    const Film film = render(kBase + "--gather lightslice --slices 40 --columns " + name, name);
+    const double error = compare(film, all).l2;
+    EXPECT_LT(error, 0.75 * before) << columns;
+    EXPECT_NEAR(compare(film, all).meanRatio, 1, 0.06) << columns;
+    before = error;
+    const nlohmann::json stats = statistics(name);
+    EXPECT_EQ(stats["gather"]["slices"], 40);
+    EXPECT_EQ(stats["gather"]["columns"], columns);
+    EXPECT_GT(stats["seconds"]["rows"], 0);
+    EXPECT_GT(stats["seconds"]["cluster"], 0);
+    EXPECT_NEAR(stats["counts"]["cut_nodes_per_pixel"], 40.0 * columns / (64 * 48),
+                0.2 * columns * 40 / (64 * 48));
+  }
+}
+
+TEST_F(BaselinesRender, Lightcuts) {
+  const Film all = render(kBase, "all");
+  double before = 1;
+  for (const std::string threshold : {"0.2", "0.05", "0.01"}) {
+    const Film film =
+        render(kBase + "--gather lightcuts --cut-size 3000 --threshold " + threshold, threshold);
+    const double error = compare(film, all).l2;
+    EXPECT_LT(error, 0.75 * before) << threshold;
+    before = error;
+    const nlohmann::json stats = statistics(threshold);
+    EXPECT_NEAR(stats["gather"]["threshold"].get<double>(), std::stod(threshold), 1e-6);
+    EXPECT_EQ(stats["gather"]["cut_size"], 3000);
+    EXPECT_GT(stats["counts"]["node_pairs_visited"], 0);
+    EXPECT_GT(stats["seconds"]["trees"], 0);
+    EXPECT_LT(stats["counts"]["cut_nodes_per_pixel"],
+              stats["lights"]["diffuse"].get<double>() + stats["lights"]["glossy"].get<double>());
+  }
+  EXPECT_LT(before, 0.03);
+}
+
+TEST_F(BaselinesRender, StochasticLightcuts) {
+  const Film all = render(kBase, "all");
+  double before = 1;
+  for (const int nodes : {50, 250, 1250}) {
+    const std::string name = std::to_string(nodes);
+    const Film film = render(kBase + "--gather stochastic --cut-size " + name, name);
+    const double error = compare(film, all).l2;
+    EXPECT_LT(error, 0.75 * before) << nodes;
+    EXPECT_NEAR(compare(film, all).meanRatio, 1, 0.05) << nodes;
+    before = error;
+    EXPECT_LE(statistics(name)["counts"]["cut_nodes_per_pixel"], nodes);
+  }
+}
+
+// Without a threshold, all lights are in the cut; the options that choose parts of a picture go
+// with every gather.
+TEST_F(BaselinesRender, GoWithOtherOptions) {
+  const std::string base = "--size 32x24 --spp 2 --num-lights 300 --clamp 1 --gather ";
+  for (const char* part : {"--crop 10,8,30,20", "--pixels 200", "--passes 2", "--direct lights",
+                           "--max-depth 3", "--aov groups,types,cost", "--lights vpl"}) {
+    SCOPED_TRACE(part);
+    const Film all = render(base + "all " + part, "all");
+    for (const char* strategy : {"lightcuts --threshold 0 --cut-size 3000",
+                                 "stochastic --cut-size 3000", "lightslice --columns 3000"}) {
+      const Film some = render(base + strategy + " " + part, "some");
+      EXPECT_EQ(some.alpha, all.alpha);
+      EXPECT_LT(compare(some, all).l2, 1e-4) << strategy;
+    }
+  }
+}
+
+TEST_F(BaselinesRender, WrongUseSaysWhatWouldBeRight) {
+  expectError("--gather lightslice --rows 10", "--gather mrcs");
+  expectError("--gather mrcs --slices 10", "--gather lightslice");
+  expectError("--gather all --columns 10", "mrcs, lightslice");
+  expectError("--gather sglc --threshold 0.1", "lightcuts, stochastic");
+  expectError("--gather lightcuts --threshold 2", "--threshold");
+  expectError("--gather lightslice --cut-size 10", "sglc, lightcuts, stochastic");
+  expectError("--gather lightcut", "lightcuts");
+  expectError("--gather lightslice --num-lights 3000 --memory 1K", "--slices");
+  expectError("--lights path --gather lightcuts", "--lights path");
+}
+
+}  // namespace
+}  // namespace lobelia
