@@ -8,17 +8,17 @@ namespace {
 using BaselinesRender = test::RenderTest;
 
 const std::string kBase =
-    "--lights glossy --clamp 1 --size 64x48 --spp 1 --num-lights 3000 --component indirect "
+    "--lights glossy --clamp 0.3 --size 32x24 --spp 1 --num-lights 1500 --component indirect "
     "--seed 2 ";
 
 TEST_F(BaselinesRender, LightSlice) {
   const Film all = render(kBase, "all");
-  double before = 1;
-  for (const int columns : {50, 200, 800}) {
+  double before = 0.1;
+  for (const int columns : {30, 120, 480}) {
     const std::string name = std::to_string(columns);
     const Film film = render(kBase + "--gather lightslice --slices 40 --columns " + name, name);
-    const double error = compare(film, all).l2;
-    EXPECT_LT(error, 0.75 * before) << columns;
+    const double error = compare(film, all).relmse;
+    EXPECT_LT(error, 0.5 * before) << columns;
     EXPECT_NEAR(compare(film, all).meanRatio, 1, 0.06) << columns;
     before = error;
     const nlohmann::json stats = statistics(name);
@@ -26,8 +26,8 @@ TEST_F(BaselinesRender, LightSlice) {
     EXPECT_EQ(stats["gather"]["columns"], columns);
     EXPECT_GT(stats["seconds"]["rows"], 0);
     EXPECT_GT(stats["seconds"]["cluster"], 0);
-    EXPECT_NEAR(stats["counts"]["cut_nodes_per_pixel"], 40.0 * columns / (64 * 48),
-                0.2 * columns * 40 / (64 * 48));
+    EXPECT_NEAR(stats["counts"]["cut_nodes_per_pixel"], 40.0 * columns / (32 * 24),
+                0.2 * columns * 40 / (32 * 24));
   }
 }
 
@@ -54,31 +54,33 @@ TEST_F(BaselinesRender, Lightcuts) {
 TEST_F(BaselinesRender, StochasticLightcuts) {
   const Film all = render(kBase, "all");
   double before = 1;
-  for (const int nodes : {50, 250, 1250}) {
+  for (const int nodes : {40, 160, 640}) {
     const std::string name = std::to_string(nodes);
     const Film film = render(kBase + "--gather stochastic --cut-size " + name, name);
     const double error = compare(film, all).l2;
     EXPECT_LT(error, 0.75 * before) << nodes;
     EXPECT_NEAR(compare(film, all).meanRatio, 1, 0.05) << nodes;
     before = error;
-    EXPECT_LE(statistics(name)["counts"]["cut_nodes_per_pixel"], nodes);
+    EXPECT_LE(statistics(name)["counts"]["cut_nodes_per_pixel"], 1.1 * nodes)
+        << "some pixels have more than one receiver";
   }
 }
 
-// Without a threshold, all lights are in the cut; the options that choose parts of a picture go
+// Without a threshold all lights are in the cut, and the options that choose parts of a picture go
 // with every gather.
 TEST_F(BaselinesRender, GoWithOtherOptions) {
-  const std::string base = "--size 32x24 --spp 2 --num-lights 300 --clamp 1 --gather ";
-  for (const char* part : {"--crop 10,8,30,20", "--pixels 200", "--passes 2", "--direct lights",
-                           "--max-depth 3", "--aov groups,types,cost", "--lights vpl"}) {
-    SCOPED_TRACE(part);
-    const Film all = render(base + "all " + part, "all");
-    for (const char* strategy : {"lightcuts --threshold 0 --cut-size 3000",
-                                 "stochastic --cut-size 3000", "lightslice --columns 3000"}) {
-      const Film some = render(base + strategy + " " + part, "some");
-      EXPECT_EQ(some.alpha, all.alpha);
-      EXPECT_LT(compare(some, all).l2, 1e-4) << strategy;
-    }
+  const std::string base = "--size 16x12 --spp 2 --num-lights 100 --clamp 1 --gather ";
+  const std::string lightcuts = "lightcuts --threshold 0 --cut-size 3000";
+  const std::string stochastic = "stochastic --cut-size 3000", slices = "lightslice --columns 3000";
+  for (const auto& [strategy, part] :
+       {std::pair{lightcuts, "--crop 4,2,12,10"}, std::pair{slices, "--pixels 60"},
+        std::pair{stochastic, "--passes 2"}, std::pair{lightcuts, "--direct lights"},
+        std::pair{stochastic, "--max-depth 3"}, std::pair{slices, "--aov groups,types,cost"},
+        std::pair{lightcuts, "--lights vpl"}}) {
+    const Film all = render(base + "all " + part, "all"),
+               some = render(base + strategy + " " + part, "some");
+    EXPECT_EQ(some.alpha, all.alpha) << part;
+    EXPECT_LT(compare(some, all).l2, 1e-4) << strategy << " " << part;
   }
 }
 

@@ -128,20 +128,8 @@ void NodeBounder::bound(const ReceiverNodes& receiver, uint32_t tree,
                         std::span<const uint32_t> nodes, NodeBound* bounds) {
   const LightForest::Tree& lights = forest_.trees[tree];
   evaluations_ += nodes.size();
-  found_.resize(nodes.size());
-  std::fill_n(bounds, nodes.size(), NodeBound{});
-  for (const bool glossy : {false, true}) {
-    if (glossy && !receiver.glossy) continue;
-    pairs_.clear();
-    for (const uint32_t node : nodes)
-      pairs_.push_back(
-          {glossy ? &receiver.gaussians : &receiver.cosine, &lights.tree.nodes()[node]});
-    boundPairs(pairs_, lights.lightClass, glossy, BoundForm::tight, found_.data());
-    for (size_t i = 0; i < nodes.size(); ++i) {
-      bounds[i].value += found_[i].value;
-      bounds[i].upper = std::min(bounds[i].upper + found_[i].upper, kBoundInfinity);
-    }
-  }
+  boundNodes(receiver.cosine, receiver.glossy ? &receiver.gaussians : nullptr, lights.tree.nodes(),
+             nodes, lights.lightClass, bounds);
   const bool clamped = lights.lightClass == LightClass::omni ||
                        lights.lightClass == LightClass::diffuse ||
                        lights.lightClass == LightClass::glossy;

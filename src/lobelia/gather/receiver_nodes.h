@@ -8,7 +8,7 @@
 #pragma once
 
 #include "lobelia/gather/light_forest.h"
-#include "lobelia/gather/node_bounds.h"
+#include "lobelia/gather/receiver_bounds.h"
 #include "lobelia/gather/tile.h"
 
 namespace lobelia::gather {
@@ -19,12 +19,6 @@ struct ReceiverNodes {
 };
 // strip: the first lane is receivers.points[point].
 ReceiverNodes receiverNodes(const Receivers& receivers, size_t point, const PointStrip& strip);
-
-// Luminances of what a node's lights send over a receiver, without visibility: between the
-// representatives, and the upper bound.
-struct NodeBound {
-  float value = 0, upper = 0;
-};
 
 class NodeBounder {
  public:
@@ -40,8 +34,6 @@ class NodeBounder {
   const LightForest& forest_;
   const float clamp_;
   uint64_t evaluations_ = 0;
-  std::vector<NodePair> pairs_;
-  std::vector<PairBounds> found_;
 };
 
 }  // namespace lobelia::gather
