@@ -72,7 +72,7 @@ TEST_F(LightSlice, ColumnsOfSomeRows) {
   ASSERT_EQ(some.dims, 16u);
   AlignedFloats a(all.stride()), b(some.stride());
   double hardlySeen = 0, count = 0;
-  std::vector<double> squares;
+  std::vector<double> squares, elsewheres;
   for (size_t i = 0; i < all.count; ++i) {
     all.load(i, a.data());
     double squared = 0;
@@ -84,6 +84,12 @@ TEST_F(LightSlice, ColumnsOfSomeRows) {
       squared += own;
       seen += own > 0 ? 1 : 0;
     }
+    double whole = 0;
+    for (size_t d = 0; d < all.dims; ++d) whole += std::pow(double{a[d] * all.weight[i]}, 2);
+    const double elsewhere =
+        kElsewhereFactor * std::sqrt(whole / (static_cast<double>(all.dims) / 3));
+    elsewheres.push_back(elsewhere);
+    squared += elsewhere * elsewhere;
     squares.push_back(squared);
     if (seen <= 1) hardlySeen += std::sqrt(squared), ++count;
   }
@@ -98,6 +104,7 @@ TEST_F(LightSlice, ColumnsOfSomeRows) {
       EXPECT_NEAR(b[3 + c] * some.weight[i], 0.5f * a[6 + c] * all.weight[i],
                   1e-4f * some.weight[i]);
     }
+    EXPECT_NEAR(b[6] * some.weight[i], elsewheres[i], 1e-4 * elsewheres[i]);
   }
 }
 

@@ -43,7 +43,8 @@ size_t takeRows(const LightColumns& columns, size_t i, std::span<const RowFactor
 LightColumns columnsOfRows(const LightColumns& columns, std::span<const RowFactor> rows) {
   LightColumns out;
   out.count = columns.count;
-  out.dims = padded(3 * rows.size());
+  out.dims = padded(3 * rows.size() + 1);
+  const float elsewhere = kElsewhereFactor / std::sqrt(static_cast<float>(columns.dims) / 3);
   out.whole.assign(out.count * out.dims, 0.f);
   out.weight.resize(out.count);
   out.scale.resize(out.count);
@@ -53,6 +54,8 @@ LightColumns columnsOfRows(const LightColumns& columns, std::span<const RowFacto
     for (size_t i = s * out.count / kShares; i < (s + 1) * out.count / kShares; ++i) {
       float* values = &out.whole[i * out.dims];
       const size_t seen = takeRows(columns, i, rows, column.data(), values);
+      values[3 * rows.size()] = elsewhere * columns.weight[i] *
+                                std::sqrt(dotProduct(column.data(), column.data(), columns.dims));
       const float length = std::sqrt(dotProduct(values, values, out.dims));
       out.weight[i] = length;
       if (seen <= 1) shares[s].hardlySeen += double{length}, ++shares[s].hardlySeenCount;

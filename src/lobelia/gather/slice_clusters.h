@@ -5,7 +5,10 @@
 // The costs of clusters, the splitting phase, the drawing and the unseen part of a light are those
 // of matrix row-column sampling (mrcs_clusters.h, mrcs_columns.h), over fewer rows. Deviations:
 // those of these files, and the rows' factors: 1 / (1 + d^2 / m), d the distance of their slices,
-// m the mean of d^2 over the neighbours.
+// m the mean of d^2 over the neighbours. Past
+// the paper, the length of a light's whole column is one more value: lights that matter elsewhere
+// and that none of the few rows happens to see would else be drawn so seldom, and scaled so much,
+// that whole slices flare up.
 #pragma once
 
 #include "lobelia/gather/mrcs.h"
@@ -17,8 +20,10 @@ struct RowFactor {
   uint32_t row;
   float factor;
 };
-// The columns of some rows, each times its factor. columns: kept whole, row r that of slice r's
-// representative.
+// Of the root mean square of the values of all rows, as one more value of a column.
+inline constexpr float kElsewhereFactor = 0.3f;
+// The columns of some rows, each times its factor, and that value. columns: kept whole, row r that
+// of slice r's representative.
 LightColumns columnsOfRows(const LightColumns& columns, std::span<const RowFactor> rows);
 
 // Rows that tell about a slice, its own first.
