@@ -88,7 +88,7 @@ TEST_F(BaselinesRender, WrongUseSaysWhatWouldBeRight) {
   expectError("--gather lightslice --rows 10", "--gather mrcs");
   expectError("--gather mrcs --slices 10", "--gather lightslice");
   expectError("--gather all --columns 10", "mrcs, lightslice");
-  expectError("--gather sglc --threshold 0.1", "lightcuts, stochastic");
+  expectError("--gather mrcs --threshold 0.1", "sglc, lightcuts, stochastic");
   expectError("--gather lightcuts --threshold 2", "--threshold");
   expectError("--gather lightslice --cut-size 10", "sglc, lightcuts, stochastic");
   expectError("--gather lightcut", "lightcuts");

@@ -146,6 +146,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"stochastic",
                            "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather stochastic "
                            "--cut-size 30 --aov direct,indirect,variance,cost"},
+                    Method{"pairs",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather sglc "
+                           "--sglc-mode paper --aov direct,indirect,variance,cost,types"},
                     Method{"pixels",
                            "--lights vpl --size 64x64 --pixels 500 --spp 8 "
                            "--num-lights 500 --passes 2 --direct lights"},

@@ -39,7 +39,7 @@ TEST_F(CutsRender, SharedRaysAreFew) {
       "--gather sglc --cut-size 300 ";
   const Film own = render(base + "--sglc-mode unbiased", "own"), shared = render(base, "shared");
   EXPECT_EQ(statistics("shared")["gather"]["mode"], "shared");
-  EXPECT_LT(3 * statistics("shared")["counts"]["rays_per_pixel"].get<double>(),
+  EXPECT_LT(2 * statistics("shared")["counts"]["rays_per_pixel"].get<double>(),
             statistics("own")["counts"]["rays_per_pixel"].get<double>());
   EXPECT_LT(compare(shared, own).l2, 0.12) << "shadows blur over a few pixels";
   EXPECT_NEAR(compare(shared, own).meanRatio, 1, 0.02);
@@ -59,7 +59,54 @@ TEST_F(CutsRender, GoesWithOtherOptions) {
   }
 }
 
+TEST_F(CutsRender, PairsComeNearerByTheirThreshold) {
+  const std::string base =
+      "--lights glossy --clamp 1 --size 64x48 --spp 1 --num-lights 3000 --component indirect ";
+  const Film all = render(base, "all");
+  const std::string paper = base + "--gather sglc --sglc-mode paper ";
+  double before = 1, rays = 0;
+  for (const char* threshold : {"0.1", "0.003"}) {
+    const Film some = render(paper + "--threshold " + threshold, "some");
+    const double error = compare(some, all).l2;
+    EXPECT_LT(error, 0.8 * before) << threshold;
+    EXPECT_NEAR(compare(some, all).meanRatio, 1, 0.05) << threshold;
+    before = error;
+    const nlohmann::json stats = statistics("some");
+    EXPECT_EQ(stats["gather"]["mode"], "paper");
+    EXPECT_EQ(stats["gather"]["bound"], "approximate");
+    EXPECT_NEAR(stats["gather"]["threshold"].get<double>(), std::stod(threshold), 1e-6);
+    EXPECT_FALSE(stats["gather"].contains("cut_size"));
+    EXPECT_GT(stats["counts"]["rays_per_pixel"], rays);
+    EXPECT_GT(stats["counts"]["lights_per_light_node"], 1);
+    EXPECT_GT(stats["counts"]["pixels_per_pixel_node"], 1);
+    EXPECT_GT(stats["counts"]["node_pairs_visited"], 0);
+    rays = stats["counts"]["rays_per_pixel"];
+  }
+  EXPECT_LT(before, 0.04);
+  render(paper + "--bound conservative --threshold 0.003", "some");
+  EXPECT_EQ(statistics("some")["gather"]["bound"], "conservative");
+  EXPECT_GT(statistics("some")["counts"]["rays_per_pixel"], rays);
+}
+
+// At threshold 0 all lights are gathered, whatever picture is made of them.
+TEST_F(CutsRender, PairsGoWithOtherOptions) {
+  const std::string base = "--size 32x24 --spp 2 --num-lights 200 --clamp 1 --gather ";
+  for (const char* part : {"--pixels 200 --max-depth 3 --crop 4,4,30,20",
+                           "--direct lights --passes 2 --aov groups,types,cost"}) {
+    SCOPED_TRACE(part);
+    const Film all = render(base + "all " + part, "all");
+    const Film some = render(base + "sglc --sglc-mode paper --threshold 0 " + part, "some");
+    EXPECT_EQ(some.alpha, all.alpha);
+    EXPECT_LT(compare(some, all).l2, 1e-4);
+  }
+}
+
 TEST_F(CutsRender, WrongUseSaysWhatWouldBeRight) {
+  expectError("--threshold 0.1", "--gather sglc");
+  expectError("--gather sglc --threshold 0.1", "--sglc-mode paper");
+  expectError("--gather sglc --sglc-mode shared --sglc-share radiance", "--sglc-mode paper");
+  expectError("--gather sglc --sglc-mode paper --cut-size 9", "--sglc-mode shared or unbiased");
+  expectError("--gather sglc --sglc-mode paper --bound tight", "conservative");
   expectError("--cut-size 10", "--gather sglc");
   expectError("--gather mrcs --sglc-mode shared", "--gather sglc");
   expectError("--gather sglc --sglc-mode papr", "shared");

@@ -5,11 +5,11 @@
 
 #include <cstring>
 
+#include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
 #include "lobelia/base/sampling.h"
 #include "lobelia/lights/virtual_lights.h"
 #include "lobelia/lobes/spherical_gaussian.h"
-#include "lobelia/trees/median_split.h"
 
 namespace lobelia::trees {
 namespace {
@@ -135,10 +135,16 @@ TEST_P(BoundTrees, ChildrenShareWhatTheirParentHas) {
   EXPECT_EQ(leaves, items_.size());
 }
 
+// More items than a thread takes at once.
 TEST_P(BoundTrees, DoNotDependOnThreads) {
-  const BoundTree many = make(BoundTree::Side::lights);
+  const std::vector<BoundItem> items = randomItems(20000);
+  const auto make = [&] {
+    const auto item = [&](uint32_t i) { return items[i]; };
+    return BoundTree(20000, item, BoundTree::Side::lights, 5.f, GetParam());
+  };
+  const BoundTree many = make();
   const ThreadLimit limit(1);
-  const BoundTree one = make(BoundTree::Side::lights);
+  const BoundTree one = make();
   ASSERT_EQ(one.nodes().size(), many.nodes().size());
   EXPECT_EQ(0, std::memcmp(one.nodes().data(), many.nodes().data(), one.nodes().size_bytes()));
 }

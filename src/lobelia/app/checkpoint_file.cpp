@@ -8,7 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "lobelia/app/light_gather.h"
+#include "lobelia/app/gather_options.h"
 #include "lobelia/base/file.h"
 #include "lobelia/gather/simd_target.h"
 #include "lobelia/version.h"
@@ -132,6 +132,11 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
   if (o.gather == "sglc") {
     s.emplace_back("--sglc-mode", cutModeOf(o));
     s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));
+    s.emplace_back("--threshold", fmt::format("{}", thresholdOf(o)));
+    s.emplace_back("--bound", boundOf(o));
+    s.emplace_back("--sglc-bounds", o.boundForm);
+    s.emplace_back("--sglc-share", o.shared);
+    s.emplace_back("--sglc-children", o.children);
   }
   if (o.lights == "vsl") {
     s.emplace_back("--radius", fmt::format("{}", o.radius));

@@ -1,14 +1,10 @@
 #include "lobelia/app/light_gather.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-
+#include "lobelia/app/gather_options.h"
 #include "lobelia/app/receiver_sample.h"
-#include "lobelia/base/error.h"
 #include "lobelia/base/random.h"
 #include "lobelia/gather/gather_cuts.h"
+#include "lobelia/gather/gather_pairs.h"
 #include "lobelia/gather/light_slices.h"
 #include "lobelia/gather/lightcuts.h"
 #include "lobelia/gather/stochastic_lightcuts.h"
@@ -20,38 +16,55 @@ constexpr uint64_t kStream = 0x73676c63;  // of everything random here
 
 using Prepared = std::unique_ptr<gather::PreparedGather>;
 
-gather::CutGatherSettings cutSettings(const RenderOptions& options, const BandPlan& plan,
-                                      int width) {
+gather::CutGatherSettings cutSettings(const RenderOptions& options, const GatherSettings& common,
+                                      const Camera& camera) {
   gather::CutGatherSettings settings;
-  settings.gather = plan.gather;
+  settings.gather = common;
   settings.cut.nodes = cutSizeOf(options);
   settings.shared = cutModeOf(options) == "shared";
-  settings.width = width;
+  settings.width = camera.cropX1 - camera.cropX0;
   return settings;
 }
 
-gather::SliceSettings sliceSettings(const RenderOptions& options, const BandPlan& plan) {
+gather::PairGatherSettings pairSettings(const RenderOptions& options,
+                                        const GatherSettings& common) {
+  using gather::TraversalSettings;
+  gather::PairGatherSettings settings;
+  settings.gather = common;
+  settings.threshold = thresholdOf(options);
+  if (boundOf(options) == "conservative")
+    settings.traversal.error = TraversalSettings::Error::conservative;
+  if (options.boundForm == "corrected") settings.traversal.bounds = gather::BoundForm::corrected;
+  if (options.children == "paper")
+    settings.traversal.children = TraversalSettings::ChildRule::paper;
+  if (options.shared == "radiance") settings.share = gather::Share::radiance;
+  return settings;
+}
+
+gather::LightcutsSettings lightcutsSettings(const RenderOptions& options,
+                                            const GatherSettings& common) {
+  gather::LightcutsSettings settings;
+  settings.gather = common;
+  settings.threshold = thresholdOf(options);
+  settings.cutSize = cutSizeOf(options);
+  return settings;
+}
+
+gather::StochasticSettings stochasticSettings(const RenderOptions& options,
+                                              const GatherSettings& common) {
+  gather::StochasticSettings settings;
+  settings.gather = common;
+  settings.threshold = thresholdOf(options);
+  settings.cutSize = cutSizeOf(options);
+  return settings;
+}
+
+gather::SliceSettings sliceSettings(const RenderOptions& options, const GatherSettings& common) {
   gather::SliceSettings settings;
-  settings.gather = plan.gather;
+  settings.gather = common;
   settings.slices = slicesOf(options);
   settings.columns = sliceColumnsOf(options);
   settings.memory = options.memory;
-  return settings;
-}
-
-gather::LightcutsSettings lightcutsSettings(const RenderOptions& options, const BandPlan& plan) {
-  gather::LightcutsSettings settings;
-  settings.gather = plan.gather;
-  settings.threshold = thresholdOf(options);
-  settings.cutSize = cutSizeOf(options);
-  return settings;
-}
-
-gather::StochasticSettings stochasticSettings(const RenderOptions& options, const BandPlan& plan) {
-  gather::StochasticSettings settings;
-  settings.gather = plan.gather;
-  settings.threshold = thresholdOf(options);
-  settings.cutSize = cutSizeOf(options);
   return settings;
 }
 
@@ -61,68 +74,14 @@ size_t slicedPixels(const RenderOptions& options) {
   return kPixelsPerSlice * slicesOf(options);
 }
 
+template <class Strategy, class Settings>
+Prepared prepareTrees(const Tracer& tracer, const VirtualLights& lights, Settings settings,
+                      uint64_t seed, Context& context) {
+  settings.seed = seed;
+  return std::make_unique<Strategy>(tracer, lights, settings, context);
+}
+
 }  // namespace
-
-std::string cutModeOf(const RenderOptions& options) {
-  return options.cutMode.empty() ? "shared" : options.cutMode;
-}
-size_t cutSizeOf(const RenderOptions& options) {
-  if (options.cutSize > 0) return options.cutSize;
-  if (options.gather == "lightcuts") return gather::LightcutsSettings().cutSize;
-  if (options.gather == "stochastic") return gather::StochasticSettings().cutSize;
-  return gather::CutSettings().nodes;
-}
-float thresholdOf(const RenderOptions& options) {
-  if (options.threshold >= 0) return options.threshold;
-  return options.gather == "stochastic" ? gather::StochasticSettings().threshold
-                                        : gather::LightcutsSettings().threshold;
-}
-
-void requireGather(const RenderOptions& options) {
-  if (options.gather != "all" && (options.lights == "path" || options.lights == "light")) {
-    throw UsageError(fmt::format(
-        "--gather {} gathers virtual lights and --lights {} has none; use vpl, glossy or vsl",
-        options.gather, options.lights));
-  }
-  struct Owned {
-    const char* name;
-    std::vector<std::string> strategies;
-    bool given;
-  };
-  for (const auto& [name, strategies, given] :
-       {Owned{"--rows", {"mrcs"}, options.rows > 0},
-        Owned{"--columns", {"mrcs", "lightslice"}, options.columns > 0},
-        Owned{"--slices", {"lightslice"}, options.slices > 0},
-        Owned{"--sketch", {"mrcs"}, !options.sketch.empty()},
-        Owned{"--column-scale", {"mrcs"}, options.columnScale != "scalar"},
-        Owned{"--near-field", {"mrcs"}, options.nearField >= 0},
-        Owned{"--error", {"mrcs"}, options.error > 0},
-        Owned{"--sglc-mode", {"sglc"}, !options.cutMode.empty()},
-        Owned{"--cut-size", {"sglc", "lightcuts", "stochastic"}, options.cutSize > 0},
-        Owned{"--threshold", {"lightcuts", "stochastic"}, options.threshold >= 0}}) {
-    if (given &&
-        std::find(strategies.begin(), strategies.end(), options.gather) == strategies.end())
-      throw UsageError(fmt::format("{} is for --gather {}; --gather {} has no use for it", name,
-                                   fmt::join(strategies, ", "), options.gather));
-  }
-  requireSketch(options);
-}
-
-size_t slicesOf(const RenderOptions& options) {
-  return options.slices > 0 ? options.slices : gather::SliceSettings().slices;
-}
-size_t sliceColumnsOf(const RenderOptions& options) {
-  return options.columns > 0 ? options.columns : gather::SliceSettings().columns;
-}
-
-size_t gatheredLights(size_t lights, const RenderOptions& options) {
-  // A light of a cut costs a few times a pair of brute force: choosing it.
-  constexpr size_t kCostOfChoice = 4;
-  if (options.gather == "sglc" || options.gather == "lightcuts" || options.gather == "stochastic")
-    return std::min(lights, kCostOfChoice * cutSizeOf(options));
-  if (options.gather == "lightslice") return std::min(lights, sliceColumnsOf(options));
-  return options.gather == "mrcs" ? std::min(lights, mostColumns(options)) : lights;
-}
 
 LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                          const BandPlan& plan, int set, LightParts parts,
@@ -133,24 +92,20 @@ LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, c
   const auto prepare = [&](const VirtualLights& lights, uint64_t number) -> Prepared {
     const uint64_t own = hashCombine(seed, number);
     if (lights.size() == 0 || context.cancelled()) return nullptr;
-    if (options.gather == "sglc") {
-      gather::CutGatherSettings settings =
-          cutSettings(options, plan, camera.cropX1 - camera.cropX0);
-      settings.seed = own;
-      return std::make_unique<gather::LightCuts>(tracer, lights, settings, context);
-    }
-    if (options.gather == "lightcuts") {
-      gather::LightcutsSettings settings = lightcutsSettings(options, plan);
-      settings.seed = own;
-      return std::make_unique<gather::Lightcuts>(tracer, lights, settings, context);
-    }
-    if (options.gather == "stochastic") {
-      gather::StochasticSettings settings = stochasticSettings(options, plan);
-      settings.seed = own;
-      return std::make_unique<gather::StochasticLightcuts>(tracer, lights, settings, context);
-    }
+    if (gathersPairs(options))
+      return prepareTrees<gather::LightPairs>(tracer, lights, pairSettings(options, settings_), own,
+                                              context);
+    if (options.gather == "sglc")
+      return prepareTrees<gather::LightCuts>(tracer, lights,
+                                             cutSettings(options, settings_, camera), own, context);
+    if (options.gather == "lightcuts")
+      return prepareTrees<gather::Lightcuts>(tracer, lights, lightcutsSettings(options, settings_),
+                                             own, context);
+    if (options.gather == "stochastic")
+      return prepareTrees<gather::StochasticLightcuts>(
+          tracer, lights, stochasticSettings(options, settings_), own, context);
     if (options.gather != "lightslice") return nullptr;
-    gather::SliceSettings settings = sliceSettings(options, plan);
+    gather::SliceSettings settings = sliceSettings(options, settings_);
     settings.seed = own;
     if (!sample) {
       const PixelSet pixels = choosePixelSample(camera, plan, slicedPixels(options), seed).pixels;

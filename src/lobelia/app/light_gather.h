@@ -9,19 +9,6 @@
 
 namespace lobelia::app {
 
-// Throws UsageError where options of a strategy are given to another, or a strategy to what has no
-// virtual lights.
-void requireGather(const RenderOptions& options);
-// What a receiver's work is in proportion to, in lights gathered by brute force, at most.
-size_t gatheredLights(size_t lights, const RenderOptions& options);
-
-// Options with the strategy's defaults filled in.
-std::string cutModeOf(const RenderOptions& options);
-size_t cutSizeOf(const RenderOptions& options);
-float thresholdOf(const RenderOptions& options);
-size_t slicesOf(const RenderOptions& options);
-size_t sliceColumnsOf(const RenderOptions& options);
-
 class LightGather {
  public:
   // parts: as reduceParts() leaves them. When cancelled while it makes trees or slices, it is of no

@@ -41,7 +41,7 @@ const std::vector<GatherStrategy>& gatherStrategies() {
        "stochastic lightcuts: the same, with one light drawn below every node, without bias"},
       {"sglc",
        "shared stochastic cuts: neighbouring receivers share lights drawn by a cut of a light "
-       "tree"},
+       "tree; --sglc-mode paper: pairs of light and receiver nodes, refined by bounds"},
   };
   return strategies;
 }

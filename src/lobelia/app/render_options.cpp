@@ -156,21 +156,42 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->transform(byteCount());
   c.add_option("--sglc-mode", o.cutMode,
                "--gather sglc: one shadow ray per light answers for a cluster of neighbouring "
-               "receivers (shared, the default), or every receiver traces its own (unbiased)")
+               "receivers (shared, the default), or every receiver traces its own (unbiased); "
+               "or pairs of light and receiver nodes, refined by bounds (paper)")
       ->type_name("MODE")
-      ->check(oneOf({"shared", "unbiased"}));
+      ->check(oneOf({"shared", "unbiased", "paper"}));
+  c.add_option("--threshold", o.threshold,
+               "--sglc-mode paper: error that a pair of nodes may have, relative to what its "
+               "pixels have; 0: all lights; default: 0.01. --gather lightcuts, stochastic: share "
+               "of a receiver's light below which the bound of a node's must be, unless the cut "
+               "is full; 0: only its size limits it; default: lightcuts 0.02, stochastic 0")
+      ->type_name("R")
+      ->check(finiteNumber(0, 1));
+  c.add_option("--bound", o.bound,
+               "--sglc-mode paper: error of pairs of nodes as if all of their lights were seen "
+               "alike (approximate, the default), or whatever is seen (conservative)")
+      ->type_name("WHICH")
+      ->check(oneOf({"approximate", "conservative"}));
+  c.add_option("--sglc-bounds", o.boundForm,
+               "--sglc-mode paper: bounds by boxes and with sharpness and amplitude coupled "
+               "(tight, the default), or as the paper has them (corrected)")
+      ->type_name("FORM")
+      ->check(oneOf({"tight", "corrected"}));
+  c.add_option("--sglc-share", o.shared,
+               "--sglc-mode paper: receivers of a node share a shadow ray and are lit one by one "
+               "(visibility, the default), or all get the light of one (radiance)")
+      ->type_name("WHAT")
+      ->check(oneOf({"visibility", "radiance"}));
+  c.add_option("--sglc-children", o.children,
+               "--sglc-mode paper: of a pair the node is refined that extends further (extent, the "
+               "default), or that whose children leave the smaller error (paper)")
+      ->type_name("RULE")
+      ->check(oneOf({"extent", "paper"}));
   c.add_option("--cut-size", o.cutSize,
                "--gather sglc: lights that a cluster of receivers gathers, at most; default: 1024. "
                "lightcuts, stochastic: nodes of a receiver's cut, at most; default: 1000, 256")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 24));
-  c.add_option(
-       "--threshold", o.threshold,
-       "--gather lightcuts, stochastic: share of a receiver's light below which the bound of "
-       "a node's must be, unless the cut is full; 0: only its size limits it; default: "
-       "lightcuts 0.02, stochastic 0")
-      ->type_name("R")
-      ->check(finiteNumber(0, 1));
   c.add_option("--env-lights", o.environmentLights,
                "With --direct lights: directional lights per environment")
       ->type_name("N")

@@ -49,6 +49,7 @@ struct RenderOptions {
   std::string cutMode;                  // of --gather sglc; "": the default
   size_t cutSize = 0;                   // of cuts of light trees; 0: the strategy's default
   float threshold = -1;                 // of bounds, over all light; below 0: the default
+  std::string bound, boundForm, shared, children;  // of --sglc-mode paper; "": the default
   std::string direct = "nee";
   float radius = 0;  // of spherical lights, over the tenth neighbour's distance; 0: automatic
   std::string sphereIndicator = "planar", sphereSampling = "product";

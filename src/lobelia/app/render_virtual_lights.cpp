@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lobelia/app/band_plan.h"
+#include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_gather.h"
 #include "lobelia/app/light_layers.h"
 #include "lobelia/app/own_light.h"

@@ -4,6 +4,7 @@
 
 #include "lobelia/app/band_plan.h"
 #include "lobelia/app/frame_setup.h"
+#include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_gather.h"
 #include "lobelia/app/own_light.h"
 #include "lobelia/app/replay_text.h"

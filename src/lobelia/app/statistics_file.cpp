@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "lobelia/app/light_gather.h"
+#include "lobelia/app/gather_options.h"
 #include "lobelia/base/file.h"
 #include "lobelia/version.h"
 
@@ -53,6 +53,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
   const LightCounts& lights = report.lights;
   const bool gathers =
       options.lights != "path" && options.lights != "light" && options.lights != "photon";
+  const bool pairs = gathers && gathersPairs(options);
+  const bool bounded = gathers && hasThreshold(options);
   size_t pixels = film.pixelCount();
   if (!film.alpha.empty()) {
     pixels = static_cast<size_t>(std::count(film.alpha.begin(), film.alpha.end(), 1.f));
@@ -79,12 +81,10 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"photons", report.photons},
                     {"particles", lights.particles},
                     {"sets", report.sets}};
-  const bool hasThreshold =
-      gathers && (options.gather == "lightcuts" || options.gather == "stochastic");
   json["gather"] = {{"strategy", gathers ? options.gather : "none"},
                     {"mode", options.gather == "sglc" && gathers ? cutModeOf(options) : ""},
-                    {"bound", ""},
-                    {"threshold", hasThreshold ? thresholdOf(options) : 0},
+                    {"bound", pairs ? boundOf(options) : ""},
+                    {"threshold", bounded ? thresholdOf(options) : 0},
                     {"error", options.error}};
   if (const ReductionReport& r = report.reduction; r.sets > 0) {
     json["gather"]["rows"] = r.rows;
@@ -97,8 +97,9 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
     json["gather"]["slices"] = slicesOf(options);
     json["gather"]["columns"] = sliceColumnsOf(options);
   }
-  if (hasThreshold || (options.gather == "sglc" && gathers))
-    json["gather"]["cut_size"] = cutSizeOf(options);
+  const bool cuts =
+      options.gather == "sglc" || options.gather == "lightcuts" || options.gather == "stochastic";
+  if (gathers && cuts && !pairs) json["gather"]["cut_size"] = cutSizeOf(options);
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
   json["seconds"] = secondsJson(s);
   json["counts"] = {{"shadow_rays", s.count("shadow_rays")},

@@ -1,7 +1,9 @@
 #include "lobelia/gather/cut_kernels.h"
 
 #include <algorithm>
+#include <bit>
 
+#include "hwy/cache_control.h"
 #include "lobelia/base/random.h"
 
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | HWY_SSSE3)
@@ -10,264 +12,256 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 // After Highway's headers: compiled once per target.
-#include "lobelia/gather/visibility-inl.h"
+#include "lobelia/gather/node_importance-inl.h"
 
 LOBELIA_CORE_BEGIN
 
 using trees::LightNode;
 using trees::LightTree;
 
-// [x]+ where x is known to spread by about sqrt(spread).
-HWY_INLINE Vf smoothPositive(Vf x, Vf spread) { return Vf(0.5f) * (x + sqrt(x * x + spread)); }
+using Entry = g::CutScratch::Entry;
 
-// What a node contributes to the points of a strip, roughly: radiant intensity times reflectance
-// over squared distance, both ends' lobes widened by the angle at which the node's lights appear;
-// the root of the sum of squares over the points, each with its weight. That is what the
-// probability of a light that all points share should be in proportion to. 0 only where nothing is
-// contributed.
+// The root of the sum of squares of nodeImportance() over representatives of the receivers: what
+// the probability of a light that all receivers share should be in proportion to.
 class Importance {
  public:
-  Importance(const g::CutReceivers& receivers, std::span<const LightTree> trees, float floor)
-      : receivers_(receivers),
-        strip_(receivers.tile.strips[0]),
-        sampling_(receivers.tile.sampling[0]),
+  Importance(const g::CutReceivers& receivers, int representatives,
+             std::span<const LightTree> trees, float floor)
+      : receivers_(g::representatives(receivers, representatives)),
+        each_(static_cast<size_t>(representatives)),
+        shift_(std::countr_zero(each_)),
         floor_(floor) {
     // Over the roots', so that no square underflows.
-    Vf total(0.f), unused;
+    float sum = 0;
     for (const LightTree& tree : trees) {
       if (tree.empty()) continue;
-      for (size_t lane = 0; lane < g::kStrip; lane += kLanes)
-        total += at(tree.nodes()[0], lane, &unused);
+      const LightNode* root = tree.nodes().data();
+      float value;
+      evaluate({&root, 1}, &value);
+      sum += value;
     }
-    const float sum = hn::GetLane(hn::SumOfLanes(Df(), total.v));
     if (sum > 0 && 1 / sum < kInfinityF) scale_ = 1 / sum;
   }
 
-  // priority: the same times the relative deviation of what the node's lights contribute, roughly.
-  float operator()(const LightNode& node, float* priority = nullptr) {
-    ++evaluations_;
-    Vf total(0.f), weighted(0.f), variance;
-    for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
-      const Vf value = at(node, lane, &variance);
-      total += value * value;
-      weighted += value * value * variance;
+  // values, priorities: of each node; the latter the same times the relative deviation of what the
+  // node's lights contribute, roughly.
+  void evaluate(std::span<const LightNode* const> nodes, float* values,
+                float* priorities = nullptr) {
+    const size_t most = g::kStrip / each_;
+    for (size_t begin = 0; begin < nodes.size(); begin += most) {
+      const size_t count = std::min(most, nodes.size() - begin);
+      evaluateRun(nodes.subspan(begin, count), values + begin,
+                  priorities == nullptr ? nullptr : priorities + begin);
     }
-    if (priority != nullptr) *priority = std::sqrt(hn::GetLane(hn::SumOfLanes(Df(), weighted.v)));
-    return std::sqrt(hn::GetLane(hn::SumOfLanes(Df(), total.v)));
+    evaluations_ += nodes.size();
   }
   size_t evaluations() const { return evaluations_; }
 
  private:
-  HWY_INLINE Vf at(const LightNode& node, size_t lane, Vf* relativeVariance) const {
-    const V3<Vf> n = load(strip_.n, lane);
-    const V3<Vf> d = broadcast(node.centre) - load(strip_.p, lane);
-    const Vf height = dot(n, d), radius(node.radius);
-    const Vf above = Vf::load(strip_.above + lane), below = Vf::load(strip_.below + lane);
-    Mf faces = ((height + radius) * above > Vf(0.f)) | ((height - radius) * below < Vf(0.f));
-    if (node.leaf()) {
-      const Vf leaving = dot(broadcast(node.n), d);
-      faces = faces & !(leaving > Vf(0.f));
+  // A lane for every node and representative.
+  void evaluateRun(std::span<const LightNode* const> nodes, float* values, float* priorities) {
+    const LightNode* rows[g::kStrip];
+    for (size_t lane = 0; lane < g::kStrip; ++lane)
+      rows[lane] = nodes[std::min(lane >> shift_, nodes.size() - 1)];
+    table_.fill(rows);
+    alignas(64) float value[g::kStrip], variance[g::kStrip];
+    for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
+      Vf relativeVariance;
+      nodeImportance(table_.at(lane), receivers_, lane, floor_, scale_, &relativeVariance)
+          .store(value + lane);
+      relativeVariance.store(variance + lane);
     }
-    *relativeVariance = Vf(0.f);
-    if (!any(faces)) return Vf(0.f);
-
-    const Vf variance(node.variance);
-    const Vf inverse = Vf(1.f) / (dot(d, d) + variance + Vf(1e-20f));
-    const V3<Vf> w = d * sqrt(inverse);  // shorter than 1 where the node is wide
-    const Vf wide = variance * inverse;
-    const Vf floor(floor_);
-    // Cosine lobes of both ends.
-    const Vf c = dot(n, w), spread = Vf(0.25f) * wide;
-    const Vf diffuse = Vf::load(sampling_.diffuse + lane);
-    const Vf reflected =
-        diffuse * (above * smoothPositive(c, spread) + below * smoothPositive(Vf(0.f) - c, spread));
-    Vf leaving(0.f);
-    if (node.diffuse > 0) {
-      const Vf disagreement = Vf(1.f) - Vf(dot(node.n, node.n)) * (Vf(1.f) - wide);
-      leaving = Vf(node.diffuse) * smoothPositive(Vf(0.f) - dot(broadcast(node.n), w),
-                                                  max(Vf(0.25f) * disagreement, Vf(0.f)));
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      float squares = 0, weighted = 0;
+      for (size_t lane = i * each_; lane < (i + 1) * each_; ++lane) {
+        const float square = value[lane] * value[lane];
+        squares += square, weighted += square * variance[lane];
+      }
+      values[i] = std::sqrt(squares);
+      if (priorities != nullptr) priorities[i] = std::sqrt(weighted);
     }
-    Vf total = leaving * reflected, slope(0.f);
-    Vf light = leaving, lightPeak(node.diffuse), receiver = reflected, receiverPeak = diffuse;
-    // The lights' Gaussian over the receivers' cosine.
-    const Vf sharpness(node.sharpness);
-    const Vf amplitude(node.glossy * (0.5f / kPi) * (node.sharpness + 0.5f));
-    const V3<Vf> back = broadcast(-node.axis);
-    const bool glossy = node.glossy > 0;
-    if (glossy) {
-      const Vf narrow = Vf(1.f) / (Vf(1.f) + sharpness * wide);
-      const Vf peak = amplitude * narrow;
-      const Vf widened = peak * exp(sharpness * narrow * (dot(back, w) - Vf(1.f)));
-      light += widened;
-      lightPeak += peak;
-      total += widened * reflected;
-      slope += widened * reflected * sharpness;
-    }
-    for (size_t i = 0; i < strip_.gaussianCount; ++i) {
-      const g::GaussianStrip& lobe = receivers_.tile.gaussians[strip_.firstGaussian + i];
-      const V3<Vf> axis = load(lobe.axis, lane);
-      const Vf k = Vf::load(lobe.sharpness + lane), a = Vf::load(lobe.amplitude + lane);
-      const Vf narrow = Vf(1.f) / (Vf(1.f) + k * wide);
-      const Vf widened = a * narrow * exp(k * narrow * (dot(axis, w) - Vf(1.f)));
-      receiver += widened;
-      receiverPeak += a * narrow;
-      total += leaving * widened;
-      slope += leaving * widened * k;
-      if (!glossy) continue;
-      // The product of both Gaussians is one, which the node's width widens.
-      const V3<Vf> v = back * sharpness + axis * k;
-      const Vf length = sqrt(dot(v, v)), sum = length + sharpness + k;
-      const Vf narrower = Vf(1.f) / (Vf(1.f) + length * wide);
-      const Vf apart = sharpness * k * squaredDistance(back, axis) / max(sum, Vf(1e-20f));
-      const Vf part = amplitude * a * narrower * exp(narrower * (dot(v, w) - length) - apart);
-      total += part;
-      slope += part * length;
-    }
-    total += floor * (light * receiverPeak + lightPeak * (receiver + floor * receiverPeak));
-    // Relative variance within the node: by distance, and by the slopes of the lobes.
-    const Vf slopes = slope / max(total, Vf(1e-30f));
-    *relativeVariance = min(Vf(kLeastVariance) + wide * (Vf(1.f) + slopes), Vf(1.f));
-    const Vf weight = Vf::load(receivers_.weight + lane) * Vf(scale_);
-    // Squares neither vanish nor overflow.
-    const Vf value = min(max(weight * total * inverse, Vf(1e-18f)), Vf(1e18f));
-    return select(faces & (weight > Vf(0.f)), value, Vf(0.f));
   }
 
-  static constexpr float kLeastVariance = 0.02f;  // of visibility, and where the estimate is wrong
-  const g::CutReceivers& receivers_;
-  const g::PointStrip& strip_;
-  const g::SamplingStrip& sampling_;
-  const float floor_;
-  float scale_ = 1;
+  const g::CutReceivers receivers_;
+  const size_t each_;
+  const int shift_;  // by which a lane is divided by each_
+  const Vf floor_;
+  Vf scale_ = 1;
+  NodeTable table_;
   size_t evaluations_ = 0;
 };
 
-using Entry = g::CutScratch::Entry;
+// Splits nodes of the highest priority, a few at a time, until the cut is as large as it may be.
+// Afterwards `done` has the cut. Nodes that contribute nothing are left out.
+class CutGrowth {
+ public:
+  CutGrowth(std::span<const LightTree> trees, Importance* importance, g::CutScratch* scratch)
+      : trees_(trees), importance_(*importance), heap_(scratch->heap), done_(scratch->done) {
+    heap_.clear(), done_.clear();
+  }
 
-// Splits the node of the highest priority until the cut is as large as it may be. Afterwards `done`
-// has the cut. Nodes that contribute nothing are left out.
-void growCut(std::span<const LightTree> trees, size_t most, Importance* importance,
-             g::CutScratch* scratch) {
-  std::vector<Entry>&heap = scratch->heap, &done = scratch->done;
-  heap.clear(), done.clear();
-  const auto less = [](const Entry& a, const Entry& b) {
+  void run(size_t most) {
+    for (uint32_t tree = 0; tree < trees_.size(); ++tree) {
+      if (trees_[tree].empty()) continue;
+      children_[0] = {0, 0, tree, 0};
+      add(1);
+    }
+    while (!heap_.empty() && heap_.size() + done_.size() < most) {
+      const size_t splits = std::min({kAtOnce, heap_.size(), most - heap_.size() - done_.size()});
+      for (size_t i = 0; i < splits; ++i) {
+        std::pop_heap(heap_.begin(), heap_.end(), less);
+        const Entry split = heap_.back();
+        heap_.pop_back();
+        const LightTree& tree = trees_[split.tree];
+        children_[2 * i] = {0, 0, split.tree, tree.left(split.node)};
+        children_[2 * i + 1] = {0, 0, split.tree, tree.right(split.node)};
+      }
+      add(2 * splits);
+    }
+    done_.insert(done_.end(), heap_.begin(), heap_.end());
+  }
+
+ private:
+  static constexpr size_t kAtOnce = 8;
+
+  static bool less(const Entry& a, const Entry& b) {
     if (a.priority != b.priority) return a.priority < b.priority;
     return a.tree != b.tree ? a.tree > b.tree : a.node > b.node;
+  }
+
+  void add(size_t count) {
+    const LightNode* nodes[2 * kAtOnce];
+    for (size_t i = 0; i < count; ++i)
+      nodes[i] = trees_[children_[i].tree].nodes().data() + children_[i].node;
+    float values[2 * kAtOnce], priorities[2 * kAtOnce];
+    importance_.evaluate({nodes, count}, values, priorities);
+    for (size_t i = 0; i < count; ++i) {
+      if (!(values[i] > 0)) continue;
+      Entry entry = children_[i];
+      entry.importance = values[i];
+      if (nodes[i]->leaf()) {
+        done_.push_back(entry);
+      } else {
+        entry.priority = priorities[i];
+        heap_.push_back(entry);
+        std::push_heap(heap_.begin(), heap_.end(), less);
+      }
+    }
+  }
+
+  const std::span<const LightTree> trees_;
+  Importance& importance_;
+  std::vector<Entry>&heap_, &done_;
+  Entry children_[2 * kAtOnce];
+};
+
+// From nodes of a cut down to one light each, children by their importance; several descents side
+// by side, so that memory is waited for together.
+class Descents {
+ public:
+  Descents(const LightTree& tree, std::span<const Entry> entries, uint64_t seed,
+           Importance* importance, std::vector<g::CutLight>* drawn)
+      : tree_(tree), entries_(entries), seed_(seed), importance_(*importance), drawn_(*drawn) {}
+
+  // Appends the lights of the entries, all of one tree, in their order. A node none of whose lights
+  // contributes leaves none.
+  void run(std::vector<g::CutLight>* lights) {
+    drawn_.assign(entries_.size(), {0, 0, 0});
+    for (refill(); count_ > 0; refill()) step();
+    for (const g::CutLight& light : drawn_)
+      if (light.probability > 0) lights->push_back(light);
+  }
+
+ private:
+  static constexpr size_t kSideBySide = 32;
+  struct Descent {
+    uint32_t node;
+    size_t entry;
+    double probability, u;
+    float importance;
   };
-  const auto add = [&](uint32_t tree, uint32_t i) {
-    const LightNode& node = trees[tree].nodes()[i];
-    float priority = 0;
-    const float value = (*importance)(node, &priority);
-    if (!(value > 0)) return;
+
+  void refill() {
+    for (; count_ < kSideBySide && next_ < entries_.size(); ++next_) {
+      const Entry& entry = entries_[next_];
+      const uint64_t key = hashCombine(seed_, uint64_t{entry.tree} << 32 | entry.node);
+      keep({entry.node, next_, 1, static_cast<double>(key >> 11) * 0x1p-53, entry.importance});
+    }
+  }
+
+  // At a leaf it notes its light.
+  void keep(const Descent& at) {
+    const LightNode& node = tree_.nodes()[at.node];
     if (node.leaf()) {
-      done.push_back({value, tree, i});
-    } else {
-      heap.push_back({priority, tree, i});
-      std::push_heap(heap.begin(), heap.end(), less);
+      const float probability = static_cast<float>(at.probability);
+      drawn_[at.entry] = {tree_.light(node.first), probability, at.importance / probability};
+      return;
     }
-  };
-  for (uint32_t tree = 0; tree < trees.size(); ++tree)
-    if (!trees[tree].empty()) add(tree, 0);
-  while (!heap.empty() && heap.size() + done.size() < most) {
-    std::pop_heap(heap.begin(), heap.end(), less);
-    const Entry split = heap.back();
-    heap.pop_back();
-    add(split.tree, trees[split.tree].left(split.node));
-    add(split.tree, trees[split.tree].right(split.node));
+    hwy::Prefetch(&tree_.nodes()[tree_.left(at.node)]);
+    hwy::Prefetch(&tree_.nodes()[tree_.right(at.node)]);
+    descents_[count_++] = at;
   }
-  done.insert(done.end(), heap.begin(), heap.end());
-}
 
-// From a node down to one of its lights, children by their importance. False: none contributes.
-bool descend(const LightTree& tree, uint32_t node, double u, Importance* importance,
-             g::CutLight* light) {
-  double probability = 1;
-  const auto nodes = tree.nodes();
-  while (!nodes[node].leaf()) {
-    const uint32_t left = tree.left(node), right = tree.right(node);
-    const double a = double{(*importance)(nodes[left])}, b = double{(*importance)(nodes[right])};
-    if (!(a + b > 0)) return false;
-    const double share = a / (a + b);
-    if (u < share) {
-      u /= share;
-      probability *= share;
-      node = left;
-    } else {
-      u = std::min((u - share) / (1 - share), 0x1.fffffffffffffp-1);
-      probability *= 1 - share;
-      node = right;
+  // All one level down.
+  void step() {
+    const LightNode* children[2 * kSideBySide];
+    for (size_t i = 0; i < count_; ++i) {
+      children[2 * i] = &tree_.nodes()[tree_.left(descents_[i].node)];
+      children[2 * i + 1] = &tree_.nodes()[tree_.right(descents_[i].node)];
+    }
+    float values[2 * kSideBySide];
+    importance_.evaluate({children, 2 * count_}, values);
+    const size_t count = count_;
+    count_ = 0;
+    for (size_t i = 0; i < count; ++i) {
+      Descent at = descents_[i];
+      const double a = double{values[2 * i]}, b = double{values[2 * i + 1]};
+      if (!(a + b > 0)) continue;
+      const double share = a / (a + b);
+      if (at.u < share) {
+        at.u /= share;
+        at.probability *= share;
+        at.node = tree_.left(at.node);
+        at.importance = values[2 * i];
+      } else {
+        at.u = std::min((at.u - share) / (1 - share), 0x1.fffffffffffffp-1);
+        at.probability *= 1 - share;
+        at.node = tree_.right(at.node);
+        at.importance = values[2 * i + 1];
+      }
+      keep(at);
     }
   }
-  *light = {tree.light(nodes[node].first), static_cast<float>(probability)};
-  return true;
-}
 
-size_t drawCutLights(const g::CutReceivers& receivers, std::span<const LightTree> trees,
-                     const g::CutSettings& settings, uint64_t seed, g::CutScratch* scratch,
-                     std::vector<g::CutLight>* lights) {
+  const LightTree& tree_;
+  const std::span<const Entry> entries_;
+  const uint64_t seed_;
+  Importance& importance_;
+  std::vector<g::CutLight>& drawn_;
+  Descent descents_[kSideBySide];
+  size_t count_ = 0, next_ = 0;
+};
+
+size_t drawCutLights(const g::CutReceivers& receivers, int representatives,
+                     std::span<const LightTree> trees, const g::CutSettings& settings,
+                     uint64_t seed, g::CutScratch* scratch, std::vector<g::CutLight>* lights) {
   lights->clear();
-  Importance importance(receivers, trees, settings.floor);
-  growCut(trees, settings.nodes, &importance, scratch);
-  std::sort(scratch->done.begin(), scratch->done.end(), [](const Entry& a, const Entry& b) {
+  Importance importance(receivers, representatives, trees, settings.floor);
+  CutGrowth(trees, &importance, scratch).run(settings.nodes);
+  std::vector<Entry>& cut = scratch->done;
+  std::sort(cut.begin(), cut.end(), [](const Entry& a, const Entry& b) {
     return a.tree != b.tree ? a.tree < b.tree : a.node < b.node;
   });
-  for (const Entry& entry : scratch->done) {
-    const uint64_t key = hashCombine(seed, uint64_t{entry.tree} << 32 | entry.node);
-    const double u = static_cast<double>(key >> 11) * 0x1p-53;
-    g::CutLight light;
-    if (descend(trees[entry.tree], entry.node, u, &importance, &light)) lights->push_back(light);
+  for (size_t begin = 0, end; begin < cut.size(); begin = end) {
+    for (end = begin; end < cut.size() && cut[end].tree == cut[begin].tree;) ++end;
+    Descents(trees[cut[begin].tree], std::span(cut).subspan(begin, end - begin), seed, &importance,
+             &scratch->drawn)
+        .run(lights);
   }
+  float all = 0;
+  for (const g::CutLight& light : *lights) all += light.share;
+  for (g::CutLight& light : *lights) light.share /= all;
   return importance.evaluations();
-}
-
-template <g::LightClass kClass>
-uint32_t facingPoints(const g::Tile& tile, const g::PreparedLight& light) {
-  uint32_t bits = 0;
-  const g::PointStrip& strip = tile.strips[0];
-  for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
-    const V3<Vf> d = toLight<kClass>(light, load(strip.p, lane));
-    bits |= maskBits(lightFaces<kClass>(light, d) & receiverFaces(strip, lane, d)) << lane;
-  }
-  return bits;
-}
-
-template <g::LightClass kClass>
-size_t keepVisibleByOneOf(const g::Tile& tile, const g::LightBlock& block, const Tracer& tracer,
-                          uint64_t seed, g::PairMasks* pairs) {
-  uint16_t facing[g::kBlockLights];
-  for (size_t l = 0; l < static_cast<size_t>(block.count); ++l) {
-    const uint32_t bits = pairs->at(l, 0) & facingPoints<kClass>(tile, block.lights[l]);
-    facing[l] = static_cast<uint16_t>(bits);
-    pairs->at(l, 0) = 0;
-    if (bits == 0) continue;
-    const uint64_t random = hashCombine(seed, l) >> 32;
-    uint32_t skip =
-        static_cast<uint32_t>(random * static_cast<uint64_t>(__builtin_popcount(bits)) >> 32);
-    uint32_t rest = bits;
-    for (; skip > 0; --skip) rest &= rest - 1;
-    pairs->at(l, 0) = static_cast<uint16_t>(rest & (~rest + 1));
-  }
-  const size_t rays = keepVisibleOf<kClass>(tile, block, tracer, pairs);
-  for (size_t l = 0; l < static_cast<size_t>(block.count); ++l)
-    if (pairs->at(l, 0) != 0) pairs->at(l, 0) = facing[l];
-  return rays;
-}
-
-size_t keepVisibleByOne(const g::Tile& tile, const g::LightBlock& block, const Tracer& tracer,
-                        uint64_t seed, g::PairMasks* pairs) {
-  switch (block.lightClass) {
-    case g::LightClass::omni:
-      return keepVisibleByOneOf<g::LightClass::omni>(tile, block, tracer, seed, pairs);
-    case g::LightClass::directional:
-      return keepVisibleByOneOf<g::LightClass::directional>(tile, block, tracer, seed, pairs);
-    case g::LightClass::diffuse:
-      return keepVisibleByOneOf<g::LightClass::diffuse>(tile, block, tracer, seed, pairs);
-    case g::LightClass::spherical:
-      return keepVisibleByOneOf<g::LightClass::spherical>(tile, block, tracer, seed, pairs);
-    case g::LightClass::glossy:
-      break;
-  }
-  return keepVisibleByOneOf<g::LightClass::glossy>(tile, block, tracer, seed, pairs);
 }
 
 LOBELIA_CORE_END
@@ -275,21 +269,15 @@ LOBELIA_CORE_END
 #if HWY_ONCE
 namespace lobelia {
 HWY_EXPORT(drawCutLights);
-HWY_EXPORT(keepVisibleByOne);
 }  // namespace lobelia
 
 namespace lobelia::gather {
 
-size_t drawCutLights(const CutReceivers& receivers, std::span<const trees::LightTree> trees,
-                     const CutSettings& settings, uint64_t seed, CutScratch* scratch,
-                     std::vector<CutLight>* lights) {
-  return HWY_DYNAMIC_DISPATCH(lobelia::drawCutLights)(receivers, trees, settings, seed, scratch,
-                                                      lights);
-}
-
-size_t keepVisibleByOne(const Tile& tile, const LightBlock& block, const Tracer& tracer,
-                        uint64_t seed, PairMasks* pairs) {
-  return HWY_DYNAMIC_DISPATCH(lobelia::keepVisibleByOne)(tile, block, tracer, seed, pairs);
+size_t drawCutLights(const CutReceivers& receivers, int representatives,
+                     std::span<const trees::LightTree> trees, const CutSettings& settings,
+                     uint64_t seed, CutScratch* scratch, std::vector<CutLight>* lights) {
+  return HWY_DYNAMIC_DISPATCH(lobelia::drawCutLights)(receivers, representatives, trees, settings,
+                                                      seed, scratch, lights);
 }
 
 }  // namespace lobelia::gather

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "lobelia/gather/aligned_floats.h"
+#include "lobelia/gather/cut_receivers.h"
 #include "lobelia/gather/kernels.h"
 #include "lobelia/trees/light_tree.h"
 
@@ -22,28 +22,24 @@ struct CutSettings {
 struct CutLight {
   uint32_t number;    // of the light
   float probability;  // that it stands for its node
-};
-
-// A single strip of a tile with Gaussians (addSampling()), and each lane's weight in the picture; 0
-// where it is not active.
-struct CutReceivers {
-  const Tile& tile;
-  alignas(64) float weight[kStrip];
+  float share;        // of all that the receivers get, as estimated
 };
 
 struct CutScratch {
   struct Entry {
-    float priority;
+    float priority, importance;
     uint32_t tree, node;
   };
   std::vector<Entry> heap, done;
+  std::vector<CutLight> drawn;
 };
 
 // By one cut of several trees. The lights in the order of the trees' leaves, none twice. seed: of
-// what is drawn. Returns the number of nodes whose importance was computed.
-size_t drawCutLights(const CutReceivers& receivers, std::span<const trees::LightTree> trees,
-                     const CutSettings& settings, uint64_t seed, CutScratch* scratch,
-                     std::vector<CutLight>* lights);
+// what is drawn. representatives: of the receivers, by which lights are drawn below the cut's
+// nodes. Returns the number of nodes whose importance was computed.
+size_t drawCutLights(const CutReceivers& receivers, int representatives,
+                     std::span<const trees::LightTree> trees, const CutSettings& settings,
+                     uint64_t seed, CutScratch* scratch, std::vector<CutLight>* lights);
 
 // As keepVisible() for a tile of one strip, but by one ray per light, from one of the points that
 // face it: it answers for all of them.

@@ -21,6 +21,10 @@ uint64_t keyOf(const ReceiverPoint& point, uint64_t seed) {
   return key;
 }
 
+// A light that makes at least this share of what a cluster gets casts its shadow sharply: each
+// receiver has its own ray to it.
+constexpr float kOwnRays = 0.005f;
+
 }  // namespace
 
 struct LightCuts::Tally {
@@ -40,13 +44,9 @@ class LightCuts::ClusterGather {
     Tile tile = makeTile(clusters_.receivers, cluster.begin, cluster.end);
     addSampling(clusters_.receivers, &tile);
     const uint64_t seed = keyOf(clusters_.receivers.points[cluster.begin], cuts_.settings_.seed);
-    CutReceivers receivers{tile, {}};
-    for (size_t lane = 0; lane < kStrip; ++lane)
-      if (tile.strips[0].active >> lane & 1)
-        receivers.weight[lane] =
-            luminance(clusters_.receivers.points[tile.strips[0].point[lane]].weight);
-    tally->evaluations +=
-        drawCutLights(receivers, cuts_.trees_, cuts_.settings_.cut, seed, &scratch_, &drawn_);
+    const CutReceivers receivers = cutReceivers(tile, clusters_.receivers);
+    tally->evaluations += drawCutLights(receivers, cluster.representatives, cuts_.trees_,
+                                        cuts_.settings_.cut, seed, &scratch_, &drawn_);
     tally->lights += drawn_.size();
     tally->traverseNs += nanosecondsNow() - start;
 
@@ -54,10 +54,12 @@ class LightCuts::ClusterGather {
     sums.strips.resize(1);
     std::optional<TileParts> parts;
     if (parts_ != nullptr) parts.emplace(clusters_.receivers, cuts_.lights_, tile, parts_);
+    TileParts* const part = parts ? &*parts : nullptr;
     for (const LightClass lightClass : kLightClasses) {
       if (parts) parts->beginClass(sums);
-      addClass(tile, lightClass, cluster.compact && cuts_.settings_.shared, seed, &sums,
-               parts ? &*parts : nullptr, tally);
+      // What its lights share, then what they do not.
+      if (shares(cluster)) addClass(tile, lightClass, true, cluster, seed, &sums, part, tally);
+      addClass(tile, lightClass, false, cluster, seed, &sums, part, tally);
       if (parts) parts->endClass(lightClass, sums);
     }
     if (parts) parts->write();
@@ -67,7 +69,13 @@ class LightCuts::ClusterGather {
   }
 
  private:
-  void addClass(const Tile& tile, LightClass lightClass, bool shared, uint64_t seed, TileSums* sums,
+  bool shares(const ReceiverClusters::Cluster& cluster) const {
+    return cluster.compact && cuts_.settings_.shared;
+  }
+
+  // Lights of a class: those that one ray answers for, or those that need a ray from each receiver.
+  void addClass(const Tile& tile, LightClass lightClass, bool shared,
+                const ReceiverClusters::Cluster& cluster, uint64_t seed, TileSums* sums,
                 TileParts* parts, Tally* tally) {
     uint32_t indices[kBlockLights];
     float scale[kBlockLights];
@@ -82,6 +90,7 @@ class LightCuts::ClusterGather {
     for (const CutLight& drawn : drawn_) {
       const ChosenLight light = cuts_.numbers_.at(drawn.number);
       if (light.lightClass != lightClass) continue;
+      if (shared != (shares(cluster) && drawn.share < kOwnRays)) continue;
       indices[count] = static_cast<uint32_t>(light.index);
       scale[count++] = 1 / drawn.probability;
       if (count == kBlockLights) flush();
@@ -170,9 +179,9 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
     Tally tally;
     for (size_t i = begin; i < end; ++i) {
       if (context.cancelled()) return;
-      const auto& [first, last, compact] = clusters.clusters[i];
-      if (!holdsPixel(clusters.receivers, first, last, onlyPixel)) continue;
-      gather.run(clusters.clusters[i], radiance, &tally);
+      const ReceiverClusters::Cluster& cluster = clusters.clusters[i];
+      if (!holdsPixel(clusters.receivers, cluster.begin, cluster.end, onlyPixel)) continue;
+      gather.run(cluster, radiance, &tally);
     }
     const std::lock_guard lock(mutex);
     all.rays += tally.rays, all.pairs += tally.pairs, all.nonfinite += tally.nonfinite;

@@ -5,12 +5,14 @@
 // lights is drawn, children by their estimates [Yuksel19 section 4]; over its probability it stands
 // for the node at every receiver of the cluster, each with its own reflectance. One shadow ray per
 // light, from a receiver drawn among the cluster's, answers for all of them
-// (CutGatherSettings::shared), or every receiver traces its own.
+// (CutGatherSettings::shared), but for lights that matter much alone; or every receiver traces its
+// own.
 //
 // Past [P000], whose pairs of light and pixel nodes are refined until upper bounds allow to copy
 // one representative's light to all pixels: what is drawn is unbiased for every receiver, so that
 // estimates do in the place of bounds, and only visibility is shared. Past [Yuksel19]: receivers
-// share the cut and the lights, and the cut is chosen by estimates of the standard deviation.
+// share the cut and the lights, drawn by importance for few representatives of theirs, and the cut
+// is chosen by estimates of the standard deviation.
 #pragma once
 
 #include "lobelia/gather/cut_kernels.h"

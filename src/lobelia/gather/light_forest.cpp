@@ -1,5 +1,7 @@
 #include "lobelia/gather/light_forest.h"
 
+#include <map>
+
 #include "lobelia/base/parallel.h"
 #include "lobelia/lobes/spherical_gaussian.h"
 
@@ -77,12 +79,13 @@ class Planter {
       : lights_(lights), scene_(scene), scale_(2 * bounds.radius()), spheres_(spheres) {}
 
   // indices: of the lights in the class.
-  void plant(LightClass lightClass, std::vector<uint32_t> indices, bool apart,
-             LightForest* forest) const {
+  void plant(LightClass lightClass, const std::vector<uint32_t>& indices, bool apart,
+             uint16_t group, LightForest* forest) const {
     if (indices.empty()) return;
     LightForest::Tree& out = forest->trees.emplace_back();
     out.lightClass = lightClass;
     out.apart = apart;
+    out.group = group;
     const auto item = [&](uint32_t i) { return boundItem(lightClass, indices[i]); };
     out.tree = trees::BoundTree(static_cast<uint32_t>(indices.size()), item,
                                 trees::BoundTree::Side::lights, scale_);
@@ -154,14 +157,15 @@ LightForest plantLights(const VirtualLights& lights, const GatherSettings& setti
   const Planter planter(lights, scene, bounds, spheres);
   for (const LightClass lightClass : kLightClasses) {
     const LightRange range = rangeForDepth(lights, lightClass, settings, receiverDepth);
-    std::vector<uint32_t> indices, apart;
+    // By group; first the lights that others stand for.
+    std::map<std::pair<uint16_t, bool>, std::vector<uint32_t>> trees;
     for (size_t i = range.begin; i < range.end; ++i) {
-      const bool pattern =
+      const bool apart =
           lightClass == LightClass::omni && lights.omni[i].emitter != PreparedLight::kNoPattern;
-      (pattern ? apart : indices).push_back(static_cast<uint32_t>(i));
+      trees[{groupOf(lights, lightClass, i), apart}].push_back(static_cast<uint32_t>(i));
     }
-    planter.plant(lightClass, std::move(indices), false, &forest);
-    planter.plant(lightClass, std::move(apart), true, &forest);
+    for (const auto& [kind, indices] : trees)
+      planter.plant(lightClass, indices, kind.second, kind.first, &forest);
   }
   return forest;
 }

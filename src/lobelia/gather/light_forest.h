@@ -17,6 +17,7 @@ struct LightForest {
     // Lights that no other stands for: omni lights with a pattern of directions. Their bounds do
     // not hold, either.
     bool apart = false;
+    uint16_t group = 0;  // of all its lights: those of different light groups are never merged
     trees::BoundTree tree;
     std::vector<uint32_t> lights;  // index in the class, by place of the leaves' order
     // By node: sums of intensities, of spherical lights of powers; of Gaussians their integrals.

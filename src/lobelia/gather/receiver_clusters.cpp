@@ -28,8 +28,7 @@ class Clusters {
     const size_t count = end - begin;
     const size_t strip = static_cast<size_t>(kStrip);
     const uint32_t side = count > strip ? 0 : sideOf(begin, end);
-    if (count <= strip && (count == 1 || side <= 2 * kCompactSide))
-      return add(begin, end, side <= kCompactSide && near(begin, end));
+    if (count <= strip && (count == 1 || side <= 2 * kCompactSide)) return add(begin, end, side);
     int widest = 0;
     float extent = -1;
     for (int dim = 0; dim < 6; ++dim) {
@@ -79,10 +78,24 @@ class Clusters {
   }
 
   // In the order in which they were given, so that tiles do not depend on how they were cut.
-  void add(size_t begin, size_t end, bool compact) {
+  void add(size_t begin, size_t end, uint32_t side) {
     std::sort(out_.order.begin() + static_cast<ptrdiff_t>(begin),
               out_.order.begin() + static_cast<ptrdiff_t>(end));
-    out_.clusters.push_back({static_cast<uint32_t>(begin), static_cast<uint32_t>(end), compact});
+    const int representatives = representativesOf(begin, end);
+    out_.clusters.push_back({static_cast<uint32_t>(begin), static_cast<uint32_t>(end),
+                             side <= kCompactSide && representatives == 1, representatives});
+  }
+
+  int representativesOf(size_t begin, size_t end) const {
+    int count = 1;
+    const auto runsAreNear = [&] {
+      const size_t run = static_cast<size_t>(kStrip / count);
+      for (size_t i = begin; i < end; i += run)
+        if (!near(i, std::min(i + run, end))) return false;
+      return true;
+    };
+    while (count < kStrip && !runsAreNear()) count *= 2;
+    return count;
   }
 
   const std::vector<ReceiverPoint>& points_;

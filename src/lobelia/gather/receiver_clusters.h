@@ -13,6 +13,9 @@ struct ReceiverClusters {
   struct Cluster {
     uint32_t begin = 0, end = 0;  // of the points
     bool compact = false;         // near neighbours in the picture and in the scene, turned alike
+    // The least power of two, such that the runs of kStrip / representatives points are near each
+    // other in the scene and turned alike.
+    int representatives = kStrip;
   };
   std::vector<Cluster> clusters;
 };

@@ -80,30 +80,22 @@ std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
     prepareSphere(scene, lights.spherical[index], lights.specularLimit, own);
     return *own;
   };
-  std::array<TreeLights, kLightTrees> out;
-  // Where a block's lights go: behind those of the blocks before it.
-  struct Place {
-    LightNumbers::Block block;
-    TreeLights* tree;
-    size_t first;
-  };
-  std::vector<Place> places;
-  size_t sizes[kLightTrees] = {};
+  TreeLights all;
+  all.lights.resize(numbers.count()), all.numbers.resize(numbers.count());
+  std::vector<size_t> places;  // where a block's lights go: behind those of the blocks before it
+  size_t end = 0;
   for (size_t b = 0; b < numbers.blockCount(); ++b) {
-    const LightNumbers::Block block = numbers.block(b);
-    const size_t tree = block.lightClass == LightClass::directional ? 1 : 0;
-    places.push_back({block, &out[tree], sizes[tree]});
-    sizes[tree] += block.count;
+    places.push_back(end);
+    end += numbers.block(b).count;
   }
-  for (size_t t = 0; t < kLightTrees; ++t)
-    out[t].lights.resize(sizes[t]), out[t].numbers.resize(sizes[t]);
+  std::vector<uint8_t> trees(all.lights.size());
   parallelFor(places.size(), 16, [&](size_t b) {
-    const LightNumbers::Block& block = places[b].block;
+    const LightNumbers::Block block = numbers.block(b);
     PreparedSphere own;
     for (size_t i = 0; i < block.count; ++i) {
-      const size_t index = block.first + i, place = places[b].first + i;
-      places[b].tree->numbers[place] = static_cast<uint32_t>(block.number + i);
-      TreeLight& light = places[b].tree->lights[place];
+      const size_t index = block.first + i, place = places[b] + i;
+      all.numbers[place] = static_cast<uint32_t>(block.number + i);
+      TreeLight& light = all.lights[place];
       switch (block.lightClass) {
         case LightClass::omni:
           light = asTreeLight(lights.omni[index]);
@@ -121,8 +113,18 @@ std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
           light = asTreeLight(lights.spherical[index], sphereOf(index, &own));
           break;
       }
+      trees[place] = block.lightClass == LightClass::directional ? 2 : light.mostlyGlossy() ? 1 : 0;
     }
   });
+  std::array<TreeLights, kLightTrees> out;
+  for (size_t t = 0; t < kLightTrees; ++t) {
+    const size_t count = static_cast<size_t>(std::count(trees.begin(), trees.end(), t));
+    out[t].lights.reserve(count), out[t].numbers.reserve(count);
+  }
+  for (size_t i = 0; i < trees.size(); ++i) {
+    out[trees[i]].lights.push_back(all.lights[i]);
+    out[trees[i]].numbers.push_back(all.numbers[i]);
+  }
   return out;
 }
 

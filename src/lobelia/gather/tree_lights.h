@@ -9,10 +9,10 @@
 
 namespace lobelia::gather {
 
-// Directional lights, which stand far outside of the scene, and all others: a node of both would be
-// told very wrongly.
-// spheres: prepareSpheres(), which may be empty.
-inline constexpr size_t kLightTrees = 2;
+// Lights that are mostly diffuse, those that are mostly glossy, and directional ones, which stand
+// far outside of the scene: a node of several kinds would be told very wrongly. spheres:
+// prepareSpheres(), which may be empty.
+inline constexpr size_t kLightTrees = 3;
 struct TreeLights {
   std::vector<trees::TreeLight> lights;
   std::vector<uint32_t> numbers;  // of the lights

@@ -78,7 +78,7 @@ BoundNode leafOf(const BoundItem& item, uint32_t place) {
   const bool sided = lengthSquared(item.n) > 0;
   const Vec3f n = sided ? item.n : Vec3f{0, 0, 1};
   setCone({n, sided ? 0 : kPi}, &node.normalAxis, &node.normalAngle);
-  node.n = encodeOctahedral(n);
+  node.n = node.normalAxis;
   node.cosine = node.leastPeak = node.amount = item.cosine;
   node.first = place;
   node.count = 1;
@@ -98,7 +98,7 @@ BoundNode leafOf(const BoundItem& item, uint32_t place) {
   }
   setCone(axes, &node.lobeAxis, &node.lobeAngle);
   if (item.gaussianCount == 1) {
-    node.axis = encodeOctahedral(item.gaussians[0].axis);
+    node.axis = node.lobeAxis;
     node.sharpness = item.gaussians[0].sharpness;
   } else if (moment.weight > 0) {
     const lobes::SphericalGaussian lobe = lobes::lobeOf(moment);

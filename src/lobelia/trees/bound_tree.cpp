@@ -1,7 +1,6 @@
 #include "lobelia/trees/bound_tree.h"
 
 #include <cmath>
-#include <numeric>
 
 #include "lobelia/trees/median_split.h"
 
@@ -13,12 +12,11 @@ constexpr int kExtents = 7;
 // of the scene's size.
 constexpr float kNormalShare = 0.1f, kAxisShare = 0.05f, kSharpnessShare = 0.02f;
 
-struct Coordinates {
-  float x[kExtents];
-};
+using Item = SplitItem<kExtents>;
 
-Coordinates coordinatesOf(const BoundItem& item, float inverseScale) {
-  Coordinates c{};
+Item coordinatesOf(const BoundItem& item, float inverseScale, uint32_t number) {
+  Item c{};
+  c.item = number;
   for (int d = 0; d < 3; ++d) c.x[d] = item.p[d] * inverseScale;
   if (item.gaussianCount == 0) {
     for (int d = 0; d < 3; ++d) c.x[3 + d] = kNormalShare * item.n[d];
@@ -36,29 +34,23 @@ BoundTree::BoundTree(uint32_t count, const std::function<BoundItem(uint32_t)>& i
                      float scale, uint32_t strip)
     : strip_(strip) {
   if (count == 0) return;
+  const float inverseScale = 1 / std::max(scale, 1e-30f);
+  std::vector<Item> items(count);
+  parallelFor(count, 1024, [&](size_t i) {
+    const uint32_t number = static_cast<uint32_t>(i);
+    items[i] = coordinatesOf(item(number), inverseScale, number);
+  });
   order_.resize(count);
-  std::iota(order_.begin(), order_.end(), 0u);
   nodes_.resize(2 * size_t{count} - 1);
-  std::vector<std::vector<SplitRange>> levels;
-  {
-    const float inverseScale = 1 / std::max(scale, 1e-30f);
-    std::vector<Coordinates> coordinates(count);
-    parallelFor(count, 1024, [&](size_t i) {
-      coordinates[i] = coordinatesOf(item(static_cast<uint32_t>(i)), inverseScale);
-    });
-    const auto at = [&](uint32_t i, int d) { return coordinates[i].x[d]; };
-    levels = MedianSplit<kExtents, decltype(at)>(at, strip, &order_).run(0, 0, count);
-  }
-  const auto merge = side == Side::lights ? mergedLights : mergedReceivers;
-  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
-    parallelFor(level->size(), 256, [&](size_t i) {
-      const SplitRange& range = (*level)[i];
-      nodes_[range.node] =
-          range.count == 1
-              ? leafOf(item(order_[range.first]), range.first)
-              : merge(nodes_[range.node + 1], nodes_[rightChild(range.node, range.count, strip)]);
-    });
-  }
+  const auto leaf = [&](uint32_t node, uint32_t place, uint32_t number) {
+    order_[place] = number;
+    nodes_[node] = leafOf(item(number), place);
+  };
+  const auto mergeTwo = side == Side::lights ? mergedLights : mergedReceivers;
+  const auto merge = [&](uint32_t node, uint32_t a, uint32_t b) {
+    nodes_[node] = mergeTwo(nodes_[a], nodes_[b]);
+  };
+  MedianSplit(&items, strip, leaf, merge).run();
 }
 
 uint32_t BoundTree::right(uint32_t i) const { return rightChild(i, nodes_[i].count, strip_); }

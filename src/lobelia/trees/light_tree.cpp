@@ -103,8 +103,7 @@ class Builder {
 
   float coordinate(const TreeLight& light, int dim) const {
     if (dim < 3) return light.p[dim] * inverseScale_;
-    const bool glossy = light.glossy > diffusePower(light.diffuse);
-    return kDirectionShare * (glossy ? light.axis : light.n)[dim - 3];
+    return kDirectionShare * (light.mostlyGlossy() ? light.axis : light.n)[dim - 3];
   }
 
   void split(const Range& range) {

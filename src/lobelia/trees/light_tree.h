@@ -28,6 +28,7 @@ struct TreeLight {
   Vec3f axis{0, 0, 1};  // of the Gaussian
   float sharpness = 0;
   float glossy = 0;  // W: integral of the Gaussian
+  bool mostlyGlossy() const { return glossy > kPi * diffuse; }
 };
 
 // In preorder: the first child of node i is i + 1.

@@ -1,8 +1,9 @@
-// Top-down order of items for a binary tree: every node is cut in the middle of its widest extent.
+// Binary trees over items: every node is cut in the middle of its widest extent, top-down, and made
+// from its children, bottom-up.
 //
 // The shape depends on the number of items alone: node i of count items in preorder has its first
-// child at i + 1, with leftCount() items, and the other behind that one's nodes. Items are the same
-// for any number of threads.
+// child at i + 1, with leftCount() items, and the other behind that one's nodes. The tree is the
+// same for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +14,6 @@
 
 namespace lobelia::trees {
 
-struct SplitRange {
-  uint32_t node, first, count;
-};
-
 // Items of the first child; in whole strips while there are more than one strip's.
 inline uint32_t leftCount(uint32_t count, uint32_t strip = 1) {
   if (count <= strip) return count / 2;
@@ -26,58 +23,86 @@ inline uint32_t rightChild(uint32_t node, uint32_t count, uint32_t strip = 1) {
   return node + 2 * leftCount(count, strip);
 }
 
-// Levels of nodes, the root's first. coordinate(item, dim): in units in which all kDims dimensions
-// count alike. order: at least [first, first + count) items, permuted.
-template <int kDims, class Coordinate>
+// An item with its coordinates, in units in which all dimensions count alike.
+template <int kDims>
+struct SplitItem {
+  float x[kDims];
+  uint32_t item;
+};
+
+// leaf(node, place, item) and merge(node, left, right) make the nodes, from several threads. The
+// items are sorted into the leaves' order.
+template <int kDims, class Leaf, class Merge>
 class MedianSplit {
  public:
-  MedianSplit(const Coordinate& coordinate, uint32_t strip, std::vector<uint32_t>* order)
-      : coordinate_(coordinate), strip_(strip), order_(*order) {}
+  MedianSplit(std::vector<SplitItem<kDims>>* items, uint32_t strip, const Leaf& leaf,
+              const Merge& merge)
+      : items_(*items), strip_(strip), leaf_(leaf), merge_(merge) {}
 
-  std::vector<std::vector<SplitRange>> run(uint32_t firstNode, uint32_t first, uint32_t count) {
-    std::vector<std::vector<SplitRange>> levels{{{firstNode, first, count}}};
-    while (!levels.back().empty()) {
-      const std::vector<SplitRange>& level = levels.back();
-      parallelFor(level.size(), level.size() > 64 ? 16 : 1, [&](size_t i) { split(level[i]); });
-      std::vector<SplitRange> next;
-      for (const SplitRange& range : level) {
-        if (range.count == 1) continue;
-        const uint32_t left = leftCount(range.count, strip_);
-        next.push_back({range.node + 1, range.first, left});
-        next.push_back(
-            {rightChild(range.node, range.count, strip_), range.first + left, range.count - left});
+  // Level by level until subtrees fit a cache, which threads share out among them.
+  void run() {
+    std::vector<Range> above, subtrees, level{{0, 0, static_cast<uint32_t>(items_.size())}};
+    while (!level.empty()) {
+      std::erase_if(level, [&](const Range& range) {
+        if (range.count <= kSubtree) subtrees.push_back(range);
+        return range.count <= kSubtree;
+      });
+      parallelFor(level.size(), 1, [&](size_t i) { split(level[i]); });
+      above.insert(above.end(), level.begin(), level.end());
+      std::vector<Range> next;
+      for (const Range& range : level) {
+        next.push_back(left(range));
+        next.push_back(right(range));
       }
-      levels.push_back(std::move(next));
+      level = std::move(next);
     }
-    return levels;
+    parallelFor(subtrees.size(), 1, [&](size_t i) { build(subtrees[i]); });
+    for (auto range = above.rbegin(); range != above.rend(); ++range)
+      merge_(range->node, left(*range).node, right(*range).node);
   }
 
  private:
-  void split(const SplitRange& range) {
-    if (range.count < 2) return;
+  static constexpr uint32_t kSubtree = 4096;
+  struct Range {
+    uint32_t node, first, count;
+  };
+
+  Range left(const Range& r) const { return {r.node + 1, r.first, leftCount(r.count, strip_)}; }
+  Range right(const Range& r) const {
+    const uint32_t before = leftCount(r.count, strip_);
+    return {rightChild(r.node, r.count, strip_), r.first + before, r.count - before};
+  }
+
+  void build(const Range& range) {
+    if (range.count == 1) return leaf_(range.node, range.first, items_[range.first].item);
+    split(range);
+    build(left(range));
+    build(right(range));
+    merge_(range.node, left(range).node, right(range).node);
+  }
+
+  void split(const Range& range) {
     float lo[kDims], hi[kDims];
     std::fill_n(lo, kDims, 3.4e38f);
     std::fill_n(hi, kDims, -3.4e38f);
-    const auto begin = order_.begin() + range.first, end = begin + range.count;
-    for (auto it = begin; it != end; ++it) {
-      for (int d = 0; d < kDims; ++d) {
-        const float x = coordinate_(*it, d);
-        lo[d] = std::min(lo[d], x), hi[d] = std::max(hi[d], x);
-      }
-    }
+    const auto begin = items_.begin() + range.first, end = begin + range.count;
+    for (auto it = begin; it != end; ++it)
+      for (int d = 0; d < kDims; ++d)
+        lo[d] = std::min(lo[d], it->x[d]), hi[d] = std::max(hi[d], it->x[d]);
     int widest = 0;
     for (int d = 1; d < kDims; ++d)
       if (hi[d] - lo[d] > hi[widest] - lo[widest]) widest = d;
-    std::vector<std::pair<float, uint32_t>> keys;
-    keys.reserve(range.count);
-    for (auto it = begin; it != end; ++it) keys.emplace_back(coordinate_(*it, widest), *it);
-    std::nth_element(keys.begin(), keys.begin() + leftCount(range.count, strip_), keys.end());
-    for (uint32_t i = 0; i < range.count; ++i) begin[i] = keys[i].second;
+    std::nth_element(begin, begin + leftCount(range.count, strip_), end,
+                     [widest](const SplitItem<kDims>& a, const SplitItem<kDims>& b) {
+                       return a.x[widest] != b.x[widest] ? a.x[widest] < b.x[widest]
+                                                         : a.item < b.item;
+                     });
   }
 
-  const Coordinate& coordinate_;
+  std::vector<SplitItem<kDims>>& items_;
   const uint32_t strip_;
-  std::vector<uint32_t>& order_;
+  const Leaf& leaf_;
+  const Merge& merge_;
 };
 
 }  // namespace lobelia::trees

@@ -1,0 +1,117 @@
+#include "lobelia/gather/cut_receivers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lobelia/lobes/spherical_gaussian.h"
+
+namespace lobelia::gather {
+namespace {
+
+// Receivers [begin, end) of a strip, and what one counts among them.
+class Run {
+ public:
+  Run(const CutReceivers& receivers, int begin, int end)
+      : receivers_(receivers), begin_(begin), end_(end) {
+    for (int lane = begin; lane < end; ++lane) total_ += receivers.weight[lane];
+  }
+
+  // Those that count; if none does, the first.
+  template <class Use>
+  void forEach(const Use& use) const {
+    if (!(total_ > 0)) return use(begin_, 1);
+    for (int lane = begin_; lane < end_; ++lane)
+      if (receivers_.weight[lane] > 0) use(lane, receivers_.weight[lane] / total_);
+  }
+  // Root of the sum of squares.
+  float weight() const {
+    float squares = 0;
+    for (int lane = begin_; lane < end_; ++lane)
+      squares += receivers_.weight[lane] * receivers_.weight[lane];
+    return std::sqrt(squares);
+  }
+  // By the moments of their energy.
+  lobes::SphericalGaussian mean(const GaussianStrip& strip) const {
+    lobes::Moment moment;
+    forEach([&](int lane, float share) {
+      const float k = strip.sharpness[lane];
+      const float energy = strip.amplitude[lane] * lobes::integral(k);
+      moment.add(lobes::momentOf(strip.axis.get(lane), k, share * energy));
+    });
+    if (moment.weight > 0) return lobes::lobeOf(moment);
+    return {{0, 0, 1}, 1, 0};
+  }
+  // Into one lane.
+  void represent(int lane, CutReceivers* out) const;
+
+ private:
+  const CutReceivers& receivers_;
+  const int begin_, end_;
+  float total_ = 0;
+};
+
+void Run::represent(int lane, CutReceivers* out) const {
+  Vec3f p, n;
+  float diffuse = 0, above = 0, below = 0;
+  forEach([&](int i, float share) {
+    p += share * receivers_.p.get(i);
+    n += share * receivers_.n.get(i);
+    diffuse += share * receivers_.diffuse[i];
+    above = std::max(above, receivers_.above[i]);
+    below = std::max(below, receivers_.below[i]);
+  });
+  n = dot(n, n) > 1e-12f ? normalize(n) : receivers_.n.get(begin_);
+  float variance = 0, placeSlack = 0, normalSlack = 0;
+  forEach([&](int i, float share) {
+    const Vec3f apart = receivers_.p.get(i) - p;
+    variance += share * dot(apart, apart);
+    placeSlack = std::max(placeSlack, length(apart));
+    normalSlack = std::max(normalSlack, length(receivers_.n.get(i) - n));
+  });
+  out->p.set(lane, p), out->n.set(lane, n);
+  out->above[lane] = above, out->below[lane] = below;
+  out->diffuse[lane] = diffuse;
+  out->weight[lane] = weight();
+  out->variance[lane] = variance;
+  out->placeSlack[lane] = placeSlack, out->normalSlack[lane] = normalSlack;
+  for (size_t i = 0; i < receivers_.gaussianCount; ++i) {
+    const lobes::SphericalGaussian lobe = mean(receivers_.gaussians[i]);
+    out->gaussians[i].axis.set(lane, lobe.axis);
+    out->gaussians[i].sharpness[lane] = lobe.sharpness;
+    out->gaussians[i].amplitude[lane] = lobe.amplitude;
+  }
+}
+
+}  // namespace
+
+CutReceivers cutReceivers(const Tile& tile, const Receivers& receivers) {
+  const PointStrip& strip = tile.strips[0];
+  CutReceivers out;
+  out.p = strip.p, out.n = strip.n;
+  std::copy_n(strip.above, kStrip, out.above);
+  std::copy_n(strip.below, kStrip, out.below);
+  std::copy_n(tile.sampling[0].diffuse, kStrip, out.diffuse);
+  out.gaussianCount = strip.gaussianCount;
+  for (size_t i = 0; i < strip.gaussianCount; ++i)
+    out.gaussians[i] = tile.gaussians[strip.firstGaussian + i];
+  for (size_t lane = 0; lane < kStrip; ++lane) {
+    const bool active = strip.active >> lane & 1;
+    out.weight[lane] = active ? luminance(receivers.points[strip.point[lane]].weight) : 0;
+    out.variance[lane] = out.placeSlack[lane] = out.normalSlack[lane] = 0;
+  }
+  return out;
+}
+
+CutReceivers representatives(const CutReceivers& receivers, int count) {
+  if (count == kStrip) return receivers;
+  CutReceivers out;
+  out.gaussianCount = receivers.gaussianCount;
+  const int size = kStrip / count;
+  for (int lane = 0; lane < kStrip; ++lane) {
+    const int i = lane % count;
+    Run(receivers, i * size, (i + 1) * size).represent(lane, &out);
+  }
+  return out;
+}
+
+}  // namespace lobelia::gather

@@ -1,0 +1,31 @@
+// Receivers as the choice of a cut's lights sees them (cut_kernels.h).
+#pragma once
+
+#include "lobelia/gather/sphere.h"
+#include "lobelia/gather/tile.h"
+
+namespace lobelia::gather {
+
+// One receiver per lane.
+struct CutReceivers {
+  StripV3 p, n;
+  alignas(64) float above[kStrip];    // as PointStrip
+  alignas(64) float below[kStrip];    //
+  alignas(64) float diffuse[kStrip];  // as SamplingStrip
+  alignas(64) float weight[kStrip];   // of the receiver in the picture; 0: the lane does not count
+  size_t gaussianCount = 0;
+  GaussianStrip gaussians[kSphereGaussians];
+  // Where a lane stands for several receivers: the mean square distance of their places to its own,
+  // and the most by which their places and normals differ from its own.
+  alignas(64) float variance[kStrip];
+  alignas(64) float placeSlack[kStrip];
+  alignas(64) float normalSlack[kStrip];
+};
+
+// tile: a single strip of these receivers, with Gaussians (addSampling()).
+CutReceivers cutReceivers(const Tile& tile, const Receivers& receivers);
+// Lanes i, i + count and so on stand for the i-th run of kStrip / count of these receivers: where
+// they can see nothing of a light, none of the run can. count: a power of two, at most kStrip.
+CutReceivers representatives(const CutReceivers& receivers, int count);
+
+}  // namespace lobelia::gather

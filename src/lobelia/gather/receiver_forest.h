@@ -1,0 +1,32 @@
+// Receivers in trees with bounds, lobe by lobe [P000 section 4.1]: materials of several lobes enter
+// with each of them, and a tree holds lobes of one kind, so that a strip (tile.h) of its leaves has
+// neighbours in space and direction that are shaded alike.
+#pragma once
+
+#include "lobelia/gather/tile.h"
+#include "lobelia/trees/bound_tree.h"
+
+namespace lobelia::gather {
+
+struct ReceiverForest {
+  struct Tree {
+    bool glossy = false;           // Gaussians, not cosine lobes
+    uint8_t depth = 0;             // of all its receivers, where depths are kept apart
+    Receivers receivers;           // in the leaves' order, each with one lobe
+    std::vector<uint32_t> points;  // which of the points given they are
+    // Where wanted: the same with all of their lobes, of the same kinds for all of them; empty when
+    // they have no others.
+    Receivers whole;
+    // Bounds of a receiver's lobe times the luminance of its weight.
+    trees::BoundTree tree;
+    // The largest nodes with at most kMaxTilePoints receivers; they share nothing.
+    std::vector<uint32_t> tiles;
+  };
+  std::vector<Tree> trees;  // none is empty
+};
+
+// scale: size of the scene. byDepth: receivers of different depths in different trees. wholes: fill
+// Tree::whole? The same for any number of threads.
+ReceiverForest plantReceivers(const Receivers& receivers, float scale, bool byDepth, bool wholes);
+
+}  // namespace lobelia::gather
