@@ -41,7 +41,7 @@ TEST_F(BaselinesRender, Lightcuts) {
     EXPECT_LT(error, 0.75 * before) << threshold;
     before = error;
     const nlohmann::json stats = statistics(threshold);
-    EXPECT_NEAR(stats["gather"]["threshold"].get<double>(), std::stod(threshold), 1e-6);
+    EXPECT_EQ(stats["gather"]["threshold"].get<double>(), std::stod(threshold));
     EXPECT_EQ(stats["gather"]["cut_size"], 3000);
     EXPECT_GT(stats["counts"]["node_pairs_visited"], 0);
     EXPECT_GT(stats["seconds"]["trees"], 0);

@@ -97,7 +97,7 @@ bool gathersPairs(const RenderOptions& options) {
 bool hasThreshold(const RenderOptions& options) {
   return gathersPairs(options) || options.gather == "lightcuts" || options.gather == "stochastic";
 }
-float thresholdOf(const RenderOptions& options) {
+double thresholdOf(const RenderOptions& options) {
   if (options.threshold >= 0) return options.threshold;
   if (options.gather == "lightcuts") return gather::LightcutsSettings().threshold;
   if (options.gather == "stochastic") return gather::StochasticSettings().threshold;

@@ -19,7 +19,7 @@ size_t cutSizeOf(const RenderOptions& options);
 // Does the strategy refine pairs of nodes (--sglc-mode paper)? Has it a --threshold? Its --bound.
 bool gathersPairs(const RenderOptions& options);
 bool hasThreshold(const RenderOptions& options);
-float thresholdOf(const RenderOptions& options);
+double thresholdOf(const RenderOptions& options);
 std::string boundOf(const RenderOptions& options);
 size_t slicesOf(const RenderOptions& options);
 size_t sliceColumnsOf(const RenderOptions& options);

@@ -48,7 +48,7 @@ struct RenderOptions {
   uint64_t memory = uint64_t{2} << 30;  // bytes for columns
   std::string cutMode;                  // of --gather sglc; "": the default
   size_t cutSize = 0;                   // of cuts of light trees; 0: the strategy's default
-  float threshold = -1;                 // of bounds, over all light; below 0: the default
+  double threshold = -1;                // of bounds, over all light; below 0: the default
   std::string bound, boundForm, shared, children;  // of --sglc-mode paper; "": the default
   std::string direct = "nee";
   float radius = 0;  // of spherical lights, over the tenth neighbour's distance; 0: automatic

@@ -21,7 +21,7 @@ struct CutNode {
 };
 
 struct RefinementSettings {
-  float threshold = 0.02f;  // share of all light; 0: only the size limits the cut
+  double threshold = 0.02;  // share of all light; 0: only the size limits the cut
   size_t cutSize = 1000;
   float clamp = 0;
 };

@@ -218,7 +218,8 @@ class LightPairs::Run {
       const trees::BoundNode& node = tree.nodes()[job.node + i];
       if (node.leaf()) {
         const Pixel& pixel = pixelOf(job, node.first - tile.first);
-        thresholds[i] = settings_.threshold * std::max({pixel.light, pixel.estimate, floor});
+        thresholds[i] = static_cast<float>(settings_.threshold) *
+                        std::max({pixel.light, pixel.estimate, floor});
       } else {
         thresholds[i] = std::min(thresholds[tree.left(job.node + i) - job.node],
                                  thresholds[tree.right(job.node + i) - job.node]);

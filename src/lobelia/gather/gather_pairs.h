@@ -30,7 +30,7 @@ struct PairGatherSettings {
   GatherSettings gather;
   TraversalSettings traversal;
   Share share = Share::visibility;
-  float threshold = 0.01f;  // 0: all lights at all receivers
+  double threshold = 0.01;  // 0: all lights at all receivers
   uint64_t seed = 0;
 };
 

@@ -18,7 +18,7 @@ namespace lobelia::gather {
 
 struct LightcutsSettings {
   GatherSettings gather;
-  float threshold = 0.02f;  // RefinementSettings
+  double threshold = 0.02;  // RefinementSettings
   size_t cutSize = 1000;
   uint64_t seed = 0;
 };

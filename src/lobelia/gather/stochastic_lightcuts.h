@@ -21,7 +21,7 @@ namespace lobelia::gather {
 struct StochasticSettings {
   GatherSettings gather;
   size_t cutSize = 256;
-  float threshold = 0;  // RefinementSettings; 0: a fixed size
+  double threshold = 0;  // RefinementSettings; 0: a fixed size
   uint64_t seed = 0;
 };
 
