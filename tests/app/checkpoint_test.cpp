@@ -137,6 +137,15 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"sglc",
                            "--lights vsl --size 48x40 --spp 6 --passes 3 --num-lights 2000 "
                            "--gather sglc --cut-size 50 --aov direct,indirect,variance,cost,types"},
+                    Method{"lightslice",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather lightslice "
+                           "--columns 60 --slices 20 --aov direct,indirect,variance,cost"},
+                    Method{"lightcuts",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather lightcuts "
+                           "--cut-size 60 --aov direct,indirect,variance,cost,types"},
+                    Method{"stochastic",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather stochastic "
+                           "--cut-size 30 --aov direct,indirect,variance,cost"},
                     Method{"pairs",
                            "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather sglc "
                            "--sglc-mode paper --aov direct,indirect,variance,cost,types"},

@@ -63,7 +63,8 @@ TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
   const TemporaryFolder folder;
   for (const char* method :
        {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs", "vsl --gather sglc",
-        "vpl --gather sglc --sglc-mode paper", "vpl --compensate", "photon"}) {
+        "vpl --gather sglc --sglc-mode paper", "glossy --gather lightslice",
+        "glossy --gather lightcuts", "glossy --gather stochastic", "vpl --compensate", "photon"}) {
     ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
                          " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
                   .exitCode,
@@ -119,7 +120,10 @@ TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
   for (const char* method :
        {"path", "light", "glossy", "vpl", "vsl", "vsl --gather mrcs",
         "vsl --gather sglc --cut-size 20", "vpl --gather sglc --cut-size 20",
-        "glossy --gather sglc --sglc-mode paper", "glossy --compensate", "photon"}) {
+        "glossy --gather sglc --sglc-mode paper",
+        "glossy --gather lightslice --columns 20 --slices 10",
+        "vsl --gather lightcuts --cut-size 20", "glossy --gather stochastic --cut-size 20",
+        "glossy --compensate", "photon"}) {
     const auto render = [&](int threads, const char* seed) {
       const std::string file = folder / (std::to_string(threads) + seed + ".exr");
       const ProgramResult r =

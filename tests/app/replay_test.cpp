@@ -51,6 +51,9 @@ TEST(Replay, VirtualLightsGiveThePicturesBits) {
   expectSameValue("--lights vpl --spp 3 --passes 1 --num-lights 150 --direct lights");
   expectSameValue("--gather mrcs --spp 4 --passes 2 --num-lights 700 --columns 60 --rows 90");
   expectSameValue("--gather sglc --spp 3 --passes 2 --num-lights 700 --cut-size 40");
+  expectSameValue("--gather lightslice --spp 4 --passes 2 --num-lights 700 --columns 60");
+  expectSameValue("--gather lightcuts --spp 3 --passes 2 --num-lights 700 --cut-size 40");
+  expectSameValue("--gather stochastic --spp 3 --passes 2 --num-lights 700 --cut-size 40");
   expectSameValue("--gather sglc --sglc-mode paper --spp 2 --passes 2 --num-lights 700");
   expectSameValue("--lights vpl --compensate --spp 3 --passes 1 --num-lights 150");
   expectSameValue("--lights photon --spp 3 --passes 2 --num-lights 3000");

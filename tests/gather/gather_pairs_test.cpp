@@ -37,7 +37,7 @@ class GatherPairs : public testing::Test {
                          GatherParts* parts = nullptr) {
     std::vector<Rgb> radiance(receivers_.points.size());
     const LightPairs gather(tracer, lights, settings_, context_);
-    gather.gather(receivers_, radiance, context_, parts);
+    gather.gather(receivers_, GatherSettings::kAllPixels, radiance, context_, parts);
     return radiance;
   }
   uint64_t count(const char* name) const { return context_.statistics.count(name); }

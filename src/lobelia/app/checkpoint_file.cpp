@@ -8,7 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "lobelia/app/light_gather.h"
+#include "lobelia/app/gather_options.h"
 #include "lobelia/base/file.h"
 #include "lobelia/gather/simd_target.h"
 #include "lobelia/version.h"
@@ -118,6 +118,15 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--sketch", o.sketch);
     s.emplace_back("--column-scale", o.columnScale);
     s.emplace_back("--near-field", fmt::format("{}", o.nearField));
+    s.emplace_back("--memory", std::to_string(o.memory));
+  }
+  if (o.gather == "lightcuts" || o.gather == "stochastic") {
+    s.emplace_back("--threshold", fmt::format("{}", thresholdOf(o)));
+    s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));
+  }
+  if (o.gather == "lightslice") {
+    s.emplace_back("--slices", std::to_string(slicesOf(o)));
+    s.emplace_back("--columns", std::to_string(sliceColumnsOf(o)));
     s.emplace_back("--memory", std::to_string(o.memory));
   }
   if (o.gather == "sglc") {

@@ -1,31 +1,36 @@
 #include "lobelia/app/light_gather.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "lobelia/base/error.h"
+#include "lobelia/app/gather_options.h"
+#include "lobelia/app/receiver_sample.h"
 #include "lobelia/base/random.h"
+#include "lobelia/gather/gather_cuts.h"
+#include "lobelia/gather/gather_pairs.h"
+#include "lobelia/gather/light_slices.h"
+#include "lobelia/gather/lightcuts.h"
+#include "lobelia/gather/stochastic_lightcuts.h"
 
 namespace lobelia::app {
 namespace {
 
 constexpr uint64_t kStream = 0x73676c63;  // of everything random here
 
-gather::CutGatherSettings settingsFor(const RenderOptions& options, const BandPlan& plan,
-                                      int width) {
+using Prepared = std::unique_ptr<gather::PreparedGather>;
+
+gather::CutGatherSettings cutSettings(const RenderOptions& options, const GatherSettings& common,
+                                      const Camera& camera) {
   gather::CutGatherSettings settings;
-  settings.gather = plan.gather;
+  settings.gather = common;
   settings.cut.nodes = cutSizeOf(options);
   settings.shared = cutModeOf(options) == "shared";
-  settings.width = width;
+  settings.width = camera.cropX1 - camera.cropX0;
   return settings;
 }
 
-gather::PairGatherSettings pairSettingsFor(const RenderOptions& options, const BandPlan& plan) {
+gather::PairGatherSettings pairSettings(const RenderOptions& options,
+                                        const GatherSettings& common) {
   using gather::TraversalSettings;
   gather::PairGatherSettings settings;
-  settings.gather = plan.gather;
+  settings.gather = common;
   settings.threshold = thresholdOf(options);
   if (boundOf(options) == "conservative")
     settings.traversal.error = TraversalSettings::Error::conservative;
@@ -36,100 +41,80 @@ gather::PairGatherSettings pairSettingsFor(const RenderOptions& options, const B
   return settings;
 }
 
-void requireMode(const RenderOptions& options) {
-  if (options.gather != "sglc") return;
-  const std::string mode = cutModeOf(options);
-  const auto require = [&](const char* name, bool given, const char* modes) {
-    if (given)
-      throw UsageError(fmt::format("{} is for --sglc-mode {}; --sglc-mode {} has no use for it",
-                                   name, modes, mode));
-  };
-  if (mode == "paper") return require("--cut-size", options.cutSize > 0, "shared or unbiased");
-  require("--threshold", options.threshold >= 0, "paper");
-  require("--bound", !options.bound.empty(), "paper");
-  require("--sglc-bounds", !options.boundForm.empty(), "paper");
-  require("--sglc-share", !options.shared.empty(), "paper");
-  require("--sglc-children", !options.children.empty(), "paper");
+gather::LightcutsSettings lightcutsSettings(const RenderOptions& options,
+                                            const GatherSettings& common) {
+  gather::LightcutsSettings settings;
+  settings.gather = common;
+  settings.threshold = thresholdOf(options);
+  settings.cutSize = cutSizeOf(options);
+  return settings;
+}
+
+gather::StochasticSettings stochasticSettings(const RenderOptions& options,
+                                              const GatherSettings& common) {
+  gather::StochasticSettings settings;
+  settings.gather = common;
+  settings.threshold = thresholdOf(options);
+  settings.cutSize = cutSizeOf(options);
+  return settings;
+}
+
+gather::SliceSettings sliceSettings(const RenderOptions& options, const GatherSettings& common) {
+  gather::SliceSettings settings;
+  settings.gather = common;
+  settings.slices = slicesOf(options);
+  settings.columns = sliceColumnsOf(options);
+  settings.memory = options.memory;
+  return settings;
+}
+
+// Pixels of which slices are made.
+size_t slicedPixels(const RenderOptions& options) {
+  constexpr size_t kPixelsPerSlice = 64;
+  return kPixelsPerSlice * slicesOf(options);
+}
+
+template <class Strategy, class Settings>
+Prepared prepareTrees(const Tracer& tracer, const VirtualLights& lights, Settings settings,
+                      uint64_t seed, Context& context) {
+  settings.seed = seed;
+  return std::make_unique<Strategy>(tracer, lights, settings, context);
 }
 
 }  // namespace
 
-bool gathersPairs(const RenderOptions& options) {
-  return options.gather == "sglc" && cutModeOf(options) == "paper";
-}
-float thresholdOf(const RenderOptions& options) {
-  return options.threshold >= 0 ? options.threshold : gather::PairGatherSettings().threshold;
-}
-std::string boundOf(const RenderOptions& options) {
-  return options.bound.empty() ? "approximate" : options.bound;
-}
-
-std::string cutModeOf(const RenderOptions& options) {
-  return options.cutMode.empty() ? "shared" : options.cutMode;
-}
-size_t cutSizeOf(const RenderOptions& options) {
-  return options.cutSize > 0 ? options.cutSize : gather::CutSettings().nodes;
-}
-
-void requireGather(const RenderOptions& options) {
-  if (options.gather != "all" && (options.lights == "path" || options.lights == "light")) {
-    throw UsageError(fmt::format(
-        "--gather {} gathers virtual lights and --lights {} has none; use vpl, glossy or vsl",
-        options.gather, options.lights));
-  }
-  struct Owned {
-    const char *name, *strategy;
-    bool given;
-  };
-  for (const auto& [name, strategy, given] :
-       {Owned{"--rows", "mrcs", options.rows > 0}, Owned{"--columns", "mrcs", options.columns > 0},
-        Owned{"--sketch", "mrcs", !options.sketch.empty()},
-        Owned{"--column-scale", "mrcs", options.columnScale != "scalar"},
-        Owned{"--near-field", "mrcs", options.nearField >= 0},
-        Owned{"--error", "mrcs", options.error > 0},
-        Owned{"--sglc-mode", "sglc", !options.cutMode.empty()},
-        Owned{"--cut-size", "sglc", options.cutSize > 0},
-        Owned{"--threshold", "sglc", options.threshold >= 0},
-        Owned{"--bound", "sglc", !options.bound.empty()},
-        Owned{"--sglc-bounds", "sglc", !options.boundForm.empty()},
-        Owned{"--sglc-share", "sglc", !options.shared.empty()},
-        Owned{"--sglc-children", "sglc", !options.children.empty()}}) {
-    if (given && options.gather != strategy)
-      throw UsageError(fmt::format("{} is for --gather {}; --gather {} has no use for it", name,
-                                   strategy, options.gather));
-  }
-  requireMode(options);
-  requireSketch(options);
-}
-
-size_t gatheredLights(size_t lights, const RenderOptions& options) {
-  // A light of a cut costs a few times a pair of brute force: choosing it.
-  constexpr size_t kCostOfChoice = 4;
-  // Of a receiver's pairs of nodes: as many receivers as a band has should share them.
-  constexpr size_t kNodes = 2000;
-  if (gathersPairs(options)) return std::min(lights, kNodes);
-  if (options.gather == "sglc") return std::min(lights, kCostOfChoice * cutSizeOf(options));
-  return options.gather == "mrcs" ? std::min(lights, mostColumns(options)) : lights;
-}
-
-LightGather::LightGather(const Tracer& tracer, const BandPlan& plan, int set, int width,
-                         LightParts parts, const RenderOptions& options, Context& context)
+LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+                         const BandPlan& plan, int set, LightParts parts,
+                         const RenderOptions& options, Context& context)
     : tracer_(tracer), settings_(plan.gather), options_(options), parts_(std::move(parts)) {
-  if (options.gather != "sglc") return;
-  gather::CutGatherSettings cuts = settingsFor(options, plan, width);
-  gather::PairGatherSettings pairs = pairSettingsFor(options, plan);
   const uint64_t seed = hashCombine(hashCombine(context.seed, kStream), static_cast<uint64_t>(set));
-  for (const auto& [lights, trees, number] :
-       {std::tuple{&parts_.direct, &direct_, 0}, std::tuple{&parts_.indirect, &indirect_, 1}}) {
-    cuts.seed = pairs.seed = hashCombine(seed, static_cast<uint64_t>(number));
-    if (number == 1 && options.component == "direct") continue;
-    if (lights->size() == 0) continue;
-    if (gathersPairs(options)) {
-      trees->pairs.emplace(tracer, *lights, pairs, context);
-    } else {
-      trees->cuts.emplace(tracer, *lights, cuts, context);
+  std::optional<Receivers> sample;  // for both parts
+  const auto prepare = [&](const VirtualLights& lights, uint64_t number) -> Prepared {
+    const uint64_t own = hashCombine(seed, number);
+    if (lights.size() == 0 || context.cancelled()) return nullptr;
+    if (gathersPairs(options))
+      return prepareTrees<gather::LightPairs>(tracer, lights, pairSettings(options, settings_), own,
+                                              context);
+    if (options.gather == "sglc")
+      return prepareTrees<gather::LightCuts>(tracer, lights,
+                                             cutSettings(options, settings_, camera), own, context);
+    if (options.gather == "lightcuts")
+      return prepareTrees<gather::Lightcuts>(tracer, lights, lightcutsSettings(options, settings_),
+                                             own, context);
+    if (options.gather == "stochastic")
+      return prepareTrees<gather::StochasticLightcuts>(
+          tracer, lights, stochasticSettings(options, settings_), own, context);
+    if (options.gather != "lightslice") return nullptr;
+    gather::SliceSettings settings = sliceSettings(options, settings_);
+    settings.seed = own;
+    if (!sample) {
+      const PixelSet pixels = choosePixelSample(camera, plan, slicedPixels(options), seed).pixels;
+      sample = traceSample(tracer, emitters, camera, plan, set, pixels, context);
     }
-  }
+    return std::make_unique<gather::LightSlices>(tracer, *sample, lights, settings, context);
+  };
+  direct_ = prepare(parts_.direct, 0);
+  if (options.component != "direct") indirect_ = prepare(parts_.indirect, 1);
 }
 
 LightGather::Light LightGather::gather(const Receivers& run,
@@ -140,14 +125,12 @@ LightGather::Light LightGather::gather(const Receivers& run,
   light.indirect.resize(run.points.size());
   GatherSettings settings = settings_;
   settings.onlyPixel = onlyPixel;
-  const auto add = [&](const VirtualLights& lights, const Trees& trees, size_t layer,
+  const auto add = [&](const VirtualLights& lights, const Prepared& prepared, size_t layer,
                        std::vector<Rgb>* sum) {
     if (lights.size() == 0) return;
     std::optional<GatherParts>& parts = light.layers[layer] = wanted;
-    if (trees.pairs) {
-      trees.pairs->gather(run, *sum, context, parts ? &*parts : nullptr);
-    } else if (trees.cuts) {
-      trees.cuts->gather(run, onlyPixel, *sum, context, parts ? &*parts : nullptr);
+    if (prepared) {
+      prepared->gather(run, onlyPixel, *sum, context, parts ? &*parts : nullptr);
     } else {
       gatherAll(tracer_, run, lights, settings, *sum, context, parts ? &*parts : nullptr);
     }

@@ -1,34 +1,21 @@
 // A set of lights, ready to be gathered by the strategy that the user chose.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "lobelia/app/light_reduction.h"
-#include "lobelia/gather/gather_cuts.h"
-#include "lobelia/gather/gather_pairs.h"
+#include "lobelia/gather/prepared_gather.h"
 
 namespace lobelia::app {
 
-// Throws UsageError where options of a strategy are given to another, or a strategy to what has no
-// virtual lights.
-void requireGather(const RenderOptions& options);
-// What a receiver's work is in proportion to, in lights gathered by brute force, at most.
-size_t gatheredLights(size_t lights, const RenderOptions& options);
-
-// --sglc-mode and --cut-size, defaults filled in.
-std::string cutModeOf(const RenderOptions& options);
-size_t cutSizeOf(const RenderOptions& options);
-// Does the strategy refine pairs of nodes (--sglc-mode paper)? Its --threshold and --bound.
-bool gathersPairs(const RenderOptions& options);
-float thresholdOf(const RenderOptions& options);
-std::string boundOf(const RenderOptions& options);
-
 class LightGather {
  public:
-  // width: of the data window. parts: as reduceParts() leaves them. When cancelled while it makes
-  // trees, it is of no use.
-  LightGather(const Tracer& tracer, const BandPlan& plan, int set, int width, LightParts parts,
-              const RenderOptions& options, Context& context);
+  // parts: as reduceParts() leaves them. When cancelled while it makes trees or slices, it is of no
+  // use.
+  LightGather(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
+              const BandPlan& plan, int set, LightParts parts, const RenderOptions& options,
+              Context& context);
   LightGather(const LightGather&) = delete;
   LightGather& operator=(const LightGather&) = delete;
 
@@ -49,11 +36,8 @@ class LightGather {
   const GatherSettings settings_;
   const RenderOptions& options_;
   const LightParts parts_;
-  struct Trees {  // of sglc: at most one of them
-    std::optional<gather::LightCuts> cuts;
-    std::optional<gather::LightPairs> pairs;
-  };
-  Trees direct_, indirect_;
+  // Of direct and of indirect light; none: all lights are gathered, or there are none.
+  std::unique_ptr<gather::PreparedGather> direct_, indirect_;
 };
 
 }  // namespace lobelia::app

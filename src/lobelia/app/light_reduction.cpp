@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "lobelia/app/receiver_sample.h"
 #include "lobelia/base/error.h"
 #include "lobelia/base/random.h"
 
@@ -54,29 +55,12 @@ VirtualLights nearLights(VirtualLights lights) {
   return lights;
 }
 
-int firstSample(const BandPlan& plan, int set) {
-  int sample = 0;
-  while (plan.set(sample) < set) ++sample;
-  return sample;
-}
-
 gather::Rows traceRows(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
                        const BandPlan& plan, int set, size_t rows, uint64_t seed,
                        Context& context) {
-  Film shape;  // without layers: the rows' own emission is of no interest
-  shape.fullWidth = camera.width, shape.fullHeight = camera.height;
-  shape.x0 = camera.cropX0, shape.y0 = camera.cropY0;
-  shape.width = camera.cropX1 - camera.cropX0;
-  shape.height = camera.cropY1 - camera.cropY0;
-  const gather::RowPixels chosen =
-      gather::chooseRowPixels(shape.width, shape.height, plan.eye.pixels, rows, seed);
-  EyeSettings eye = plan.eye;
-  eye.sample = firstSample(plan, set);
-  eye.pixels = chosen.pixels;
-  eye.directSamples = 0;
-  return makeRows(chosen,
-                  traceReceivers(tracer, emitters, camera, eye, 0, shape.height, shape, context),
-                  shape.width);
+  const gather::RowPixels chosen = choosePixelSample(camera, plan, rows, seed);
+  return makeRows(chosen, traceSample(tracer, emitters, camera, plan, set, chosen.pixels, context),
+                  camera.cropX1 - camera.cropX0);
 }
 
 }  // namespace

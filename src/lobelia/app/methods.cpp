@@ -10,6 +10,8 @@
 namespace lobelia::app {
 
 const std::vector<LightModel>& lightModels() {
+  static const std::vector<std::string> everyStrategy{"all",       "mrcs",       "lightslice",
+                                                      "lightcuts", "stochastic", "sglc"};
   static const std::vector<LightModel> models{
       {"path",
        "reference path tracing: next-event estimation and BSDF sampling, no virtual lights",
@@ -18,11 +20,10 @@ const std::vector<LightModel>& lightModels() {
       {"photon",
        "photon mapping with final gathering: photons around what receivers' rays meet",
        {}},
-      {"vpl", "diffuse virtual point lights only, clamped by default", {"all", "mrcs", "sglc"}},
-      {"glossy", "diffuse and spherical-Gaussian lights", {"all", "mrcs", "sglc"}},
-      {"vsl",
-       "virtual spherical lights: any material at both ends, no spikes, no clamp",
-       {"all", "mrcs", "sglc"}},
+      {"vpl", "diffuse virtual point lights only, clamped by default", everyStrategy},
+      {"glossy", "diffuse and spherical-Gaussian lights", everyStrategy},
+      {"vsl", "virtual spherical lights: any material at both ends, no spikes, no clamp",
+       everyStrategy},
   };
   return models;
 }
@@ -32,6 +33,12 @@ const std::vector<GatherStrategy>& gatherStrategies() {
       {"all", "every light at every receiver (brute force, the reference of all strategies)"},
       {"mrcs",
        "matrix row-column sampling: few lights stand for all, chosen by a sample of pixels"},
+      {"lightslice",
+       "LightSlice: groups of like receivers have few lights of their own that stand for all"},
+      {"lightcuts",
+       "Lightcuts: every receiver has a cut of a light tree of its own, refined by upper bounds"},
+      {"stochastic",
+       "stochastic lightcuts: the same, with one light drawn below every node, without bias"},
       {"sglc",
        "shared stochastic cuts: neighbouring receivers share lights drawn by a cut of a light "
        "tree; --sglc-mode paper: pairs of light and receiver nodes, refined by bounds"},
@@ -76,15 +83,15 @@ std::string methodTable() {
   for (const LightModel& m : lightModels()) out += fmt::format("  {:<8} {}\n", m.name, m.summary);
   out += "\nGather strategies (--gather):\n";
   for (const GatherStrategy& g : gatherStrategies())
-    out += fmt::format("  {:<8} {}\n", g.name, g.summary);
+    out += fmt::format("  {:<10} {}\n", g.name, g.summary);
   out += "\nWhat combines:\n  " + fmt::format("{:<8}", "");
-  for (const GatherStrategy& g : gatherStrategies()) out += fmt::format(" {:<8}", g.name);
+  for (const GatherStrategy& g : gatherStrategies()) out += fmt::format(" {:<10}", g.name);
   out += "\n";
   for (const LightModel& m : lightModels()) {
     out += fmt::format("  {:<8}", m.name);
     for (const GatherStrategy& g : gatherStrategies()) {
       const bool yes = std::find(m.gathers.begin(), m.gathers.end(), g.name) != m.gathers.end();
-      out += fmt::format(" {:<8}", m.gathers.empty() ? "(none)" : yes ? "yes" : "-");
+      out += fmt::format(" {:<10}", m.gathers.empty() ? "(none)" : yes ? "yes" : "-");
     }
     out += "\n";
   }

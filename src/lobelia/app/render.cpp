@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_layers.h"
-#include "lobelia/app/light_gather.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/own_light.h"
@@ -24,8 +24,8 @@ void requireLightFiles(const RenderOptions& options) {
                                    std::pair{"--load-lights", options.loadLights}}) {
     if (file.empty()) continue;
     if (!usesVirtualLights(options) || options.lights == "photon") {
-      throw UsageError(fmt::format("{}: --lights {} has no virtual lights; use vpl, glossy or vsl", name,
-                                   options.lights));
+      throw UsageError(fmt::format("{}: --lights {} has no virtual lights; use vpl, glossy or vsl",
+                                   name, options.lights));
     }
     if (options.passes > 1) {
       throw UsageError(fmt::format("--passes draws new lights for every pass; leave out {}", name));

@@ -121,9 +121,15 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->check(integerRange(1, int64_t{1} << 20));
   c.add_option("--columns", o.columns,
                "--gather mrcs: lights per set that stand for all, with --error at most; default: "
-               "by an error of 0.02, at most 16384")
+               "by an error of 0.02, at most 16384. --gather lightslice: lights that stand for all "
+               "in a slice; default: 400")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 31));
+  c.add_option("--slices", o.slices,
+               "--gather lightslice: groups of like receivers, each with lights of its own; "
+               "default: 400")
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 20));
   c.add_option("--error", o.error,
                "--gather mrcs: relative error aimed at in the gathered light, 0.01 = 1 %")
       ->type_name("R")
@@ -145,7 +151,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("K")
       ->check(finiteNumber(0, 1000));
   c.add_option("--memory", o.memory,
-               "--gather mrcs: memory for what is kept of all lights; units K, M, G")
+               "--gather mrcs, lightslice: memory for what is kept of all lights; units K, M, G")
       ->type_name("BYTES")
       ->transform(byteCount());
   c.add_option("--sglc-mode", o.cutMode,
@@ -156,7 +162,9 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->check(oneOf({"shared", "unbiased", "paper"}));
   c.add_option("--threshold", o.threshold,
                "--sglc-mode paper: error that a pair of nodes may have, relative to what its "
-               "pixels have; 0: all lights; default: 0.01")
+               "pixels have; 0: all lights; default: 0.01. --gather lightcuts, stochastic: share "
+               "of a receiver's light below which the bound of a node's must be, unless the cut "
+               "is full; 0: only its size limits it; default: lightcuts 0.02, stochastic 0")
       ->type_name("R")
       ->check(finiteNumber(0, 1));
   c.add_option("--bound", o.bound,
@@ -180,7 +188,8 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("RULE")
       ->check(oneOf({"extent", "paper"}));
   c.add_option("--cut-size", o.cutSize,
-               "--gather sglc: lights that a cluster of receivers gathers, at most; default: 1024")
+               "--gather sglc: lights that a cluster of receivers gathers, at most; default: 1024. "
+               "lightcuts, stochastic: nodes of a receiver's cut, at most; default: 1000, 256")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 24));
   c.add_option("--env-lights", o.environmentLights,

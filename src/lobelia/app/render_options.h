@@ -36,18 +36,20 @@ struct RenderOptions {
   int maxDepth = 0;  // 0: the scene's
   uint64_t lightCount = 0, environmentLights = 1024;  // lightCount 0: the model's default
   uint64_t photonsNearest = 50;
-  double photonRadius = 0;       // 0: a tenth of the scene's
-  int gatherRays = 4;            // of --lights photon
-  size_t rows = 0, columns = 0;  // of --gather mrcs; 0: the method's default
-  double error = 0;              // relative error aimed at; 0: the method's default
-  std::string sketch;            // numbers kept of each column, "off"; "": the method's default
+  double photonRadius = 0;  // 0: a tenth of the scene's
+  int gatherRays = 4;       // of --lights photon
+  size_t rows = 0;          // of --gather mrcs; 0: the method's default
+  size_t columns = 0;       // of mrcs and lightslice; 0: the method's default
+  size_t slices = 0;        // of lightslice; 0: the default
+  double error = 0;         // relative error aimed at; 0: the method's default
+  std::string sketch;       // numbers kept of each column, "off"; "": the method's default
   std::string columnScale = "scalar";
   float nearField = -1;                 // of spherical lights, in radii; below 0: the default
   uint64_t memory = uint64_t{2} << 30;  // bytes for columns
   std::string cutMode;                  // of --gather sglc; "": the default
-  float threshold = -1;                 // of pairs of nodes; below 0: the default
+  size_t cutSize = 0;                   // of cuts of light trees; 0: the strategy's default
+  double threshold = -1;                // of bounds, over all light; below 0: the default
   std::string bound, boundForm, shared, children;  // of --sglc-mode paper; "": the default
-  size_t cutSize = 0;                              // 0: the default
   std::string direct = "nee";
   float radius = 0;  // of spherical lights, over the tenth neighbour's distance; 0: automatic
   std::string sphereIndicator = "planar", sphereSampling = "product";

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lobelia/app/band_plan.h"
+#include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_gather.h"
 #include "lobelia/app/light_layers.h"
 #include "lobelia/app/own_light.h"
@@ -98,7 +99,7 @@ class VirtualLightRender {
     parts = reduceParts(tracer_, emitters_, camera_, plan_, set, std::move(parts), options_,
                         &report_.reduction, context_);
     if (context_.cancelled()) return;
-    lights_.emplace(tracer_, plan_, set, film_.width, std::move(parts), options_, context_);
+    lights_.emplace(tracer_, emitters_, camera_, plan_, set, std::move(parts), options_, context_);
     if (context_.cancelled()) return;
     set_ = ready_ = set;
     markCounts();

@@ -4,6 +4,7 @@
 
 #include "lobelia/app/band_plan.h"
 #include "lobelia/app/frame_setup.h"
+#include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_gather.h"
 #include "lobelia/app/own_light.h"
 #include "lobelia/app/replay_text.h"
@@ -82,7 +83,8 @@ class LightReplay {
     ReductionReport unused;
     LightParts parts = reduceParts(run_.tracer, run_.emitters, camera_, plan_, set,
                                    splitLights(std::move(lights)), options_, &unused, context_);
-    lights_.emplace(run_.tracer, plan_, set, film_.width, std::move(parts), options_, context_);
+    lights_.emplace(run_.tracer, run_.emitters, camera_, plan_, set, std::move(parts), options_,
+                    context_);
     set_ = set;
   }
 

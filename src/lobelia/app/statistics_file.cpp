@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "lobelia/app/light_gather.h"
+#include "lobelia/app/gather_options.h"
 #include "lobelia/base/file.h"
 #include "lobelia/version.h"
 
@@ -32,7 +32,8 @@ Json secondsJson(const Statistics& statistics) {
   return out;
 }
 
-// Of --gather sglc: lights that a drawn one stands for, receivers that share it. Else 1 each.
+// Where receivers share lights that stand for others: how many each stands for, how many receivers
+// share it. Else 1 each.
 double lightsPerNode(const VirtualLightReport& report, const Statistics& s) {
   if (s.count("cut_lights") == 0) return report.lights.total > 0 ? 1 : 0;
   return ratio(static_cast<double>(s.count("clustered_lights")),
@@ -53,6 +54,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
   const bool gathers =
       options.lights != "path" && options.lights != "light" && options.lights != "photon";
   const bool pairs = gathers && gathersPairs(options);
+  const bool bounded = gathers && hasThreshold(options);
   size_t pixels = film.pixelCount();
   if (!film.alpha.empty()) {
     pixels = static_cast<size_t>(std::count(film.alpha.begin(), film.alpha.end(), 1.f));
@@ -82,7 +84,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
   json["gather"] = {{"strategy", gathers ? options.gather : "none"},
                     {"mode", options.gather == "sglc" && gathers ? cutModeOf(options) : ""},
                     {"bound", pairs ? boundOf(options) : ""},
-                    {"threshold", pairs ? thresholdOf(options) : 0.f},
+                    {"threshold", bounded ? thresholdOf(options) : 0},
                     {"error", options.error}};
   if (const ReductionReport& r = report.reduction; r.sets > 0) {
     json["gather"]["rows"] = r.rows;
@@ -91,8 +93,13 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
     json["gather"]["predicted_error"] = r.error(1);
     json["gather"]["predicted_error_direct"] = r.error(0);
   }
-  if (options.gather == "sglc" && gathers && !pairs)
-    json["gather"]["cut_size"] = cutSizeOf(options);
+  if (options.gather == "lightslice" && gathers) {
+    json["gather"]["slices"] = slicesOf(options);
+    json["gather"]["columns"] = sliceColumnsOf(options);
+  }
+  const bool cuts =
+      options.gather == "sglc" || options.gather == "lightcuts" || options.gather == "stochastic";
+  if (gathers && cuts && !pairs) json["gather"]["cut_size"] = cutSizeOf(options);
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
   json["seconds"] = secondsJson(s);
   json["counts"] = {{"shadow_rays", s.count("shadow_rays")},

@@ -38,6 +38,8 @@ struct GatherParts {
   std::vector<uint32_t> rays;  // shadow rays of a point
   // Room for so many points.
   void reset(size_t points);
+  // What a gather in an order of its own has found: its point i is order[i] of `points`.
+  void setOrdered(const GatherParts& from, const std::vector<uint32_t>& order, size_t points);
 };
 
 // Adds to radiance[i] the light that receiver point i sends to its pixel (weight included) from all

@@ -134,6 +134,14 @@ class TileGather {
   std::vector<PreparedSphere> spheres_;
 };
 
+// Layers of values, [layer][point].
+template <class T>
+void reorder(const std::vector<T>& from, const std::vector<uint32_t>& order, size_t count,
+             std::vector<T>* to) {
+  for (size_t i = 0; i < from.size(); ++i)
+    (*to)[i / order.size() * count + order[i % order.size()]] = from[i];
+}
+
 // Few points in smaller tiles, so that all threads get some. By the points alone: a ray's answer
 // may, in rare rounding cases, depend on its companions in a packet.
 size_t tilePoints(size_t points) {
@@ -155,6 +163,14 @@ void GatherParts::reset(size_t points) {
   groups.assign(groupCount * points, Rgb{});
   types.assign(byType ? kTypes * points : 0, Rgb{});
   rays.assign(countRays ? points : 0, 0);
+}
+
+void GatherParts::setOrdered(const GatherParts& from, const std::vector<uint32_t>& order,
+                             size_t points) {
+  reset(points);
+  reorder(from.groups, order, points, &groups);
+  reorder(from.types, order, points, &types);
+  reorder(from.rays, order, points, &rays);
 }
 
 void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLights& lights,

@@ -21,14 +21,6 @@ uint64_t keyOf(const ReceiverPoint& point, uint64_t seed) {
   return key;
 }
 
-// Layers of values, [layer][point]: from points order[i] to points i of `count`.
-template <class T>
-void reorder(const std::vector<T>& from, const std::vector<uint32_t>& order, size_t count,
-             std::vector<T>* to) {
-  for (size_t i = 0; i < from.size(); ++i)
-    (*to)[i / order.size() * count + order[i % order.size()]] = from[i];
-}
-
 // A light that makes at least this share of what a cluster gets casts its shadow sharply: each
 // receiver has its own ray to it.
 constexpr float kOwnRays = 0.005f;
@@ -201,12 +193,7 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
     context.progress("gather",
                      static_cast<double>(done) / static_cast<double>(clusters.clusters.size()));
   });
-  if (parts != nullptr) {
-    parts->reset(points);
-    reorder(ordered->groups, clusters.order, points, &parts->groups);
-    reorder(ordered->types, clusters.order, points, &parts->types);
-    reorder(ordered->rays, clusters.order, points, &parts->rays);
-  }
+  if (parts != nullptr) parts->setOrdered(*ordered, clusters.order, points);
   const double toSeconds = 1e-9 / threadCount();
   context.statistics.addCount("shadow_rays", all.rays);
   context.statistics.addCount("node_pairs_visited", all.evaluations);

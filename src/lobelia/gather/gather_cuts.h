@@ -16,7 +16,7 @@
 #pragma once
 
 #include "lobelia/gather/cut_kernels.h"
-#include "lobelia/gather/gather.h"
+#include "lobelia/gather/prepared_gather.h"
 #include "lobelia/gather/tree_lights.h"
 
 namespace lobelia::gather {
@@ -30,7 +30,7 @@ struct CutGatherSettings {
 };
 
 // Lights with their trees. It keeps references to lights and tracer.
-class LightCuts {
+class LightCuts : public PreparedGather {
  public:
   // Books seconds to "trees".
   LightCuts(const Tracer& tracer, const VirtualLights& lights, const CutGatherSettings& settings,
@@ -41,7 +41,7 @@ class LightCuts {
   // "clustered_receivers" and "clustered_lights" (lights times clusters); books the seconds of
   // choosing lights to "traverse". onlyPixel: GatherSettings::onlyPixel, for clusters.
   void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
-              Context& context, GatherParts* parts = nullptr) const;
+              Context& context, GatherParts* parts = nullptr) const override;
 
  private:
   struct Tally;

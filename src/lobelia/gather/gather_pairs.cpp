@@ -218,7 +218,8 @@ class LightPairs::Run {
       const trees::BoundNode& node = tree.nodes()[job.node + i];
       if (node.leaf()) {
         const Pixel& pixel = pixelOf(job, node.first - tile.first);
-        thresholds[i] = settings_.threshold * std::max({pixel.light, pixel.estimate, floor});
+        thresholds[i] = static_cast<float>(settings_.threshold) *
+                        std::max({pixel.light, pixel.estimate, floor});
       } else {
         thresholds[i] = std::min(thresholds[tree.left(job.node + i) - job.node],
                                  thresholds[tree.right(job.node + i) - job.node]);
@@ -280,8 +281,8 @@ const LightForest& LightPairs::forestFor(int receiverDepth) const {
                                       tracer_.bounds(), spheres_);
 }
 
-void LightPairs::gather(const Receivers& receivers, std::span<Rgb> radiance, Context& context,
-                        GatherParts* parts) const {
+void LightPairs::gather(const Receivers& receivers, uint32_t, std::span<Rgb> radiance,
+                        Context& context, GatherParts* parts) const {
   if (radiance.size() != receivers.points.size())
     throw std::invalid_argument("LightPairs::gather: one radiance value per receiver point");
   if (receivers.points.empty()) {

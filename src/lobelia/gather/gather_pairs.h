@@ -22,6 +22,7 @@
 #include <mutex>
 
 #include "lobelia/gather/pair_shading.h"
+#include "lobelia/gather/prepared_gather.h"
 
 namespace lobelia::gather {
 
@@ -29,12 +30,12 @@ struct PairGatherSettings {
   GatherSettings gather;
   TraversalSettings traversal;
   Share share = Share::visibility;
-  float threshold = 0.01f;  // 0: all lights at all receivers
+  double threshold = 0.01;  // 0: all lights at all receivers
   uint64_t seed = 0;
 };
 
 // Lights with their trees. It keeps references to lights and tracer.
-class LightPairs {
+class LightPairs : public PreparedGather {
  public:
   // Books seconds to "trees".
   LightPairs(const Tracer& tracer, const VirtualLights& lights, const PairGatherSettings& settings,
@@ -44,10 +45,10 @@ class LightPairs {
   // "node_pairs_visited" (bounds computed), and of the pairs of nodes that were shaded
   // "receiver_clusters" (how many), "clustered_receivers" and "cut_lights" (their receivers'
   // lobes), "clustered_lights" (lobes times lights, which is all of them); books the seconds of
-  // receiver trees to "trees", of bounds to "traverse". GatherSettings::onlyPixel is left out:
-  // errors are shared out over all receivers.
-  void gather(const Receivers& receivers, std::span<Rgb> radiance, Context& context,
-              GatherParts* parts = nullptr) const;
+  // receiver trees to "trees", of bounds to "traverse". Whatever onlyPixel is, all receivers are
+  // gathered: errors are shared out over them.
+  void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
+              Context& context, GatherParts* parts = nullptr) const override;
 
  private:
   class Run;

@@ -207,6 +207,15 @@ void LightColumns::load(size_t i, float* out) const {
   for (size_t k = 0; k < stride(); ++k) out[k] = values[k] * scale[i];
 }
 
+double squaredUnseen(double hardlySeen, size_t hardlySeenCount, float leastSeen) {
+  if (hardlySeenCount == 0) return 0;
+  const double unseen = square(kUnseenShare * hardlySeen / static_cast<double>(hardlySeenCount));
+  if (unseen > 0) return unseen;
+  // No light was seen by one row only: as little as the least of those that were seen, or, where
+  // the rows see nothing, all alike.
+  return leastSeen < kNoneSeen ? square(double{leastSeen}) : 1.0;
+}
+
 size_t columnBytes(const Rows& rows, size_t dims) {
   const size_t vector =
       dims == 0 ? (padded(3 * rows.rowCount) + padded(3 * rows.checkCount)) * sizeof(float)
@@ -241,13 +250,7 @@ LightColumns computeColumns(const Tracer& tracer, const Rows& rows, const Virtua
   context.statistics.addCount("nonfinite", all.nonfinite);
   columns.rowNorm = norm(all.total, 0, 3 * rows.rowCount);
   columns.checkNorm = norm(all.total, 3 * rows.rowCount, all.total.size());
-  if (all.hardlySeenCount > 0)
-    columns.unseen =
-        square(kUnseenShare * all.hardlySeen / static_cast<double>(all.hardlySeenCount));
-  // No light was seen by one row only: as little as the least of those that were seen, or, where
-  // the rows see nothing, all alike.
-  if (all.hardlySeenCount > 0 && !(columns.unseen > 0))
-    columns.unseen = all.least < 3e38f ? square(double{all.least}) : 1.0;
+  columns.unseen = squaredUnseen(all.hardlySeen, all.hardlySeenCount, all.least);
   parallelFor(columns.count, 4096, [&](size_t i) {
     const double weight = std::sqrt(square(double{columns.weight[i]}) + columns.unseen);
     columns.weight[i] = static_cast<float>(weight);

@@ -52,6 +52,11 @@ struct LightColumns {
   double unseenOf(size_t i) const { return unseen / (double{weight[i]} * double{weight[i]}); }
 };
 
+// u^2 by the sum of lengths of the columns that at most one row sees, their number, and the least
+// length of those that are seen (above kNoneSeen: none is).
+inline constexpr float kNoneSeen = 2e38f;
+double squaredUnseen(double hardlySeen, size_t hardlySeenCount, float leastSeen);
+
 // Bytes per light.
 size_t columnBytes(const Rows& rows, size_t dims);
 // Counts "shadow_rays", "node_pairs_shaded" and "nonfinite"; books seconds to "rows". When

@@ -1,6 +1,12 @@
 // Receivers in trees with bounds, lobe by lobe [P000 section 4.1]: materials of several lobes enter
 // with each of them, and a tree holds lobes of one kind, so that a strip (tile.h) of its leaves has
 // neighbours in space and direction that are shaded alike.
+//
+// Bounds of a lobe are those of its fitted Gaussians (samplingLobes()): they do not hold for what
+// Ward and GGX lobes have beyond these at grazing view and in their tails. The envelopes of
+// receiver_nodes.h do, but have a cosine lobe beside the Gaussians, where the bounds of a pair of
+// nodes are of either kind, and they are broader than the lobe, so that as representatives they
+// would not estimate its light.
 #pragma once
 
 #include "lobelia/gather/tile.h"

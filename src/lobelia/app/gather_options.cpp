@@ -1,0 +1,117 @@
+#include "lobelia/app/gather_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "lobelia/app/light_reduction.h"
+#include "lobelia/base/error.h"
+#include "lobelia/gather/gather_cuts.h"
+#include "lobelia/gather/gather_pairs.h"
+#include "lobelia/gather/light_slices.h"
+#include "lobelia/gather/lightcuts.h"
+#include "lobelia/gather/stochastic_lightcuts.h"
+
+namespace lobelia::app {
+namespace {
+
+void requireMode(const RenderOptions& options) {
+  if (options.gather != "sglc") return;
+  const std::string mode = cutModeOf(options);
+  const auto require = [&](const char* name, bool given, const char* modes) {
+    if (given)
+      throw UsageError(fmt::format("{} is for --sglc-mode {}; --sglc-mode {} has no use for it",
+                                   name, modes, mode));
+  };
+  if (mode == "paper") return require("--cut-size", options.cutSize > 0, "shared or unbiased");
+  require("--threshold", options.threshold >= 0, "paper");
+  require("--bound", !options.bound.empty(), "paper");
+  require("--sglc-bounds", !options.boundForm.empty(), "paper");
+  require("--sglc-share", !options.shared.empty(), "paper");
+  require("--sglc-children", !options.children.empty(), "paper");
+}
+
+}  // namespace
+
+void requireGather(const RenderOptions& options) {
+  if (options.gather != "all" && (options.lights == "path" || options.lights == "light")) {
+    throw UsageError(fmt::format(
+        "--gather {} gathers virtual lights and --lights {} has none; use vpl, glossy or vsl",
+        options.gather, options.lights));
+  }
+  struct Owned {
+    const char* name;
+    std::vector<std::string> strategies;
+    bool given;
+  };
+  for (const auto& [name, strategies, given] :
+       {Owned{"--rows", {"mrcs"}, options.rows > 0},
+        Owned{"--columns", {"mrcs", "lightslice"}, options.columns > 0},
+        Owned{"--slices", {"lightslice"}, options.slices > 0},
+        Owned{"--sketch", {"mrcs"}, !options.sketch.empty()},
+        Owned{"--column-scale", {"mrcs"}, options.columnScale != "scalar"},
+        Owned{"--near-field", {"mrcs"}, options.nearField >= 0},
+        Owned{"--error", {"mrcs"}, options.error > 0},
+        Owned{"--sglc-mode", {"sglc"}, !options.cutMode.empty()},
+        Owned{"--cut-size", {"sglc", "lightcuts", "stochastic"}, options.cutSize > 0},
+        Owned{"--threshold", {"sglc", "lightcuts", "stochastic"}, options.threshold >= 0},
+        Owned{"--bound", {"sglc"}, !options.bound.empty()},
+        Owned{"--sglc-bounds", {"sglc"}, !options.boundForm.empty()},
+        Owned{"--sglc-share", {"sglc"}, !options.shared.empty()},
+        Owned{"--sglc-children", {"sglc"}, !options.children.empty()}}) {
+    if (given &&
+        std::find(strategies.begin(), strategies.end(), options.gather) == strategies.end())
+      throw UsageError(fmt::format("{} is for --gather {}; --gather {} has no use for it", name,
+                                   fmt::join(strategies, ", "), options.gather));
+  }
+  requireMode(options);
+  requireSketch(options);
+}
+
+size_t gatheredLights(size_t lights, const RenderOptions& options) {
+  // A light of a cut costs a few times a pair of brute force: choosing it.
+  constexpr size_t kCostOfChoice = 4;
+  // Of a receiver's pairs of nodes: as many receivers as a band has should share them.
+  constexpr size_t kNodes = 2000;
+  if (gathersPairs(options)) return std::min(lights, kNodes);
+  if (options.gather == "sglc" || options.gather == "lightcuts" || options.gather == "stochastic")
+    return std::min(lights, kCostOfChoice * cutSizeOf(options));
+  if (options.gather == "lightslice") return std::min(lights, sliceColumnsOf(options));
+  return options.gather == "mrcs" ? std::min(lights, mostColumns(options)) : lights;
+}
+
+std::string cutModeOf(const RenderOptions& options) {
+  return options.cutMode.empty() ? "shared" : options.cutMode;
+}
+size_t cutSizeOf(const RenderOptions& options) {
+  if (options.cutSize > 0) return options.cutSize;
+  if (options.gather == "lightcuts") return gather::LightcutsSettings().cutSize;
+  if (options.gather == "stochastic") return gather::StochasticSettings().cutSize;
+  return gather::CutSettings().nodes;
+}
+
+bool gathersPairs(const RenderOptions& options) {
+  return options.gather == "sglc" && cutModeOf(options) == "paper";
+}
+bool hasThreshold(const RenderOptions& options) {
+  return gathersPairs(options) || options.gather == "lightcuts" || options.gather == "stochastic";
+}
+double thresholdOf(const RenderOptions& options) {
+  if (options.threshold >= 0) return options.threshold;
+  if (options.gather == "lightcuts") return gather::LightcutsSettings().threshold;
+  if (options.gather == "stochastic") return gather::StochasticSettings().threshold;
+  return gather::PairGatherSettings().threshold;
+}
+std::string boundOf(const RenderOptions& options) {
+  return options.bound.empty() ? "approximate" : options.bound;
+}
+
+size_t slicesOf(const RenderOptions& options) {
+  return options.slices > 0 ? options.slices : gather::SliceSettings().slices;
+}
+size_t sliceColumnsOf(const RenderOptions& options) {
+  return options.columns > 0 ? options.columns : gather::SliceSettings().columns;
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,118 @@
+#include "lobelia/gather/chosen_gather.h"
+
+#include <algorithm>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/gather/light_range.h"
+#include "lobelia/gather/tile_parts.h"
+
+namespace lobelia::gather {
+
+void GatherTally::noteBad(uint32_t pixel) {
+  if (!firstBad || pixel < *firstBad) firstBad = pixel;
+}
+
+void GatherTally::add(const GatherTally& o) {
+  rays += o.rays, pairs += o.pairs, nonfinite += o.nonfinite, evaluations += o.evaluations;
+  clusters += o.clusters, clusteredReceivers += o.clusteredReceivers;
+  lights += o.lights, clusteredLights += o.clusteredLights;
+  traverseNs += o.traverseNs, visibilityNs += o.visibilityNs, shadeNs += o.shadeNs;
+  if (o.firstBad) noteBad(*o.firstBad);
+}
+
+void GatherTally::book(Context& context) const {
+  const double toSeconds = 1e-9 / threadCount();
+  Statistics& s = context.statistics;
+  s.addCount("shadow_rays", rays);
+  s.addCount("node_pairs_visited", evaluations);
+  s.addCount("node_pairs_shaded", pairs);
+  s.addCount("nonfinite", nonfinite);
+  s.addCount("cut_lights", lights);
+  s.addCount("receiver_clusters", clusters);
+  s.addCount("clustered_receivers", clusteredReceivers);
+  s.addCount("clustered_lights", clusteredLights);
+  s.addSeconds("traverse", static_cast<double>(traverseNs) * toSeconds);
+  s.addSeconds("visibility", static_cast<double>(visibilityNs) * toSeconds);
+  s.addSeconds("shade", static_cast<double>(shadeNs) * toSeconds);
+  if (firstBad) noteNonFinitePixel(*firstBad, context);
+}
+
+ChosenGather::ChosenGather(const Tracer& tracer, const Receivers& receivers,
+                           std::span<const uint32_t> order, const VirtualLights& lights,
+                           const std::vector<PreparedSphere>& spheres,
+                           const GatherSettings& settings, GatherParts* parts)
+    : tracer_(tracer),
+      receivers_(receivers),
+      order_(order),
+      lights_(lights),
+      spheres_(spheres),
+      settings_(settings),
+      parts_(parts) {}
+
+Tile ChosenGather::tileOf(size_t begin, size_t end) const {
+  Tile tile = makeTile(receivers_, begin, end);
+  if (!lights_.spherical.empty()) addSampling(receivers_, &tile);
+  return tile;
+}
+
+void ChosenGather::add(const Tile& tile, std::span<const ChosenLight> chosen,
+                       std::span<Rgb> radiance, GatherTally* tally) {
+  if (tile.strips.empty()) return;
+  TileSums sums;
+  sums.strips.resize(tile.strips.size());
+  std::optional<TileParts> parts;
+  if (parts_ != nullptr) parts.emplace(receivers_, lights_, tile, parts_);
+  for (const LightClass lightClass : kLightClasses) {
+    if (parts) parts->beginClass(sums);
+    size_t end = 0;
+    while (end < chosen.size() && chosen[end].lightClass == lightClass) ++end;
+    for (size_t i = 0; i < end; i += kBlockLights)
+      addBlock(tile, chosen.subspan(i, std::min(kBlockLights, end - i)), &sums,
+               parts ? &*parts : nullptr, tally);
+    chosen = chosen.subspan(end);
+    if (parts) parts->endClass(lightClass, sums);
+  }
+  if (parts) parts->write();
+  tally->pairs += sums.pairs;
+  tally->nonfinite += sums.nonfinite;
+  write(tile, sums, radiance, tally);
+}
+
+void ChosenGather::addBlock(const Tile& tile, std::span<const ChosenLight> chosen, TileSums* sums,
+                            TileParts* parts, GatherTally* tally) {
+  const int64_t start = nanosecondsNow();
+  uint32_t indices[kBlockLights];
+  for (size_t i = 0; i < chosen.size(); ++i) indices[i] = static_cast<uint32_t>(chosen[i].index);
+  prepareChosen(lights_, tracer_.scene(), chosen[0].lightClass, {indices, chosen.size()}, &block_,
+                spheres_);
+  for (size_t i = 0; i < chosen.size(); ++i) block_.lights[i].intensity *= chosen[i].scale;
+  allowPairs(tile, block_, lights_, settings_, &pairs_);
+  if (parts != nullptr) parts->watchRays(&pairs_);
+  const int64_t prepared = nanosecondsNow();
+  tally->rays += keepVisible(tile, block_, tracer_, &pairs_);
+  const int64_t traced = nanosecondsNow();
+  shade(tile, block_, settings_.clamp, pairs_, sums);
+  if (parts != nullptr) parts->add(block_, settings_.clamp, pairs_);
+  tally->traverseNs += prepared - start;
+  tally->visibilityNs += traced - prepared;
+  tally->shadeNs += nanosecondsNow() - traced;
+}
+
+void ChosenGather::write(const Tile& tile, const TileSums& sums, std::span<Rgb> radiance,
+                         GatherTally* tally) const {
+  for (size_t s = 0; s < tile.strips.size(); ++s) {
+    const PointStrip& strip = tile.strips[s];
+    const TileSums::Strip& sum = sums.strips[s];
+    for (size_t lane = 0; lane < kStrip; ++lane) {
+      if (!(strip.active >> lane & 1)) continue;
+      const size_t i = strip.point[lane];
+      const ReceiverPoint& point = receivers_.points[i];
+      radiance[order_[i]] +=
+          point.weight * Rgb(static_cast<float>(sum.x[lane]), static_cast<float>(sum.y[lane]),
+                             static_cast<float>(sum.z[lane]));
+      if ((sum.nonfinite >> lane & 1) != 0) tally->noteBad(point.pixel);
+    }
+  }
+}
+
+}  // namespace lobelia::gather

@@ -1,0 +1,61 @@
+// Lights that a strategy has picked for one tile of receivers: prepared, traced and shaded block by
+// block, with the exact kernels of brute force. What strategies share that pick lights tile by
+// tile.
+#pragma once
+
+#include <optional>
+
+#include "lobelia/gather/gather.h"
+#include "lobelia/gather/kernels.h"
+#include "lobelia/gather/light_choice.h"
+
+namespace lobelia::gather {
+
+// What a thread counts while it gathers.
+struct GatherTally {
+  uint64_t rays = 0, pairs = 0, nonfinite = 0;
+  uint64_t evaluations = 0;  // of nodes' bounds or estimates
+  // Clusters of receivers that share lights, their receivers, what they gather of what there is.
+  uint64_t clusters = 0, clusteredReceivers = 0, lights = 0, clusteredLights = 0;
+  std::optional<uint32_t> firstBad;  // the smallest pixel with a pair that was not finite
+  int64_t traverseNs = 0, visibilityNs = 0, shadeNs = 0;  // of threads
+
+  void add(const GatherTally& other);
+  void noteBad(uint32_t pixel);
+  // Counts "shadow_rays", "node_pairs_visited", "node_pairs_shaded", "nonfinite" and what
+  // pixels_per_pixel_node and its like are made of; books "traverse", "visibility" and "shade".
+  void book(Context& context) const;
+};
+
+class ChosenGather {
+ public:
+  // receivers: in the tiles' order, order[i] what receiver i is called in radiance; parts: in the
+  // tiles' order; null: none. spheres: prepareSpheres(). All must outlive it.
+  ChosenGather(const Tracer& tracer, const Receivers& receivers, std::span<const uint32_t> order,
+               const VirtualLights& lights, const std::vector<PreparedSphere>& spheres,
+               const GatherSettings& settings, GatherParts* parts);
+
+  // A tile of receivers [begin, end), with what spherical lights need.
+  Tile tileOf(size_t begin, size_t end) const;
+  // chosen: class by class. Nothing is left out but what a receiver's depth forbids.
+  void add(const Tile& tile, std::span<const ChosenLight> chosen, std::span<Rgb> radiance,
+           GatherTally* tally);
+
+ private:
+  void addBlock(const Tile& tile, std::span<const ChosenLight> chosen, TileSums* sums,
+                class TileParts* parts, GatherTally* tally);
+  void write(const Tile& tile, const TileSums& sums, std::span<Rgb> radiance,
+             GatherTally* tally) const;
+
+  const Tracer& tracer_;
+  const Receivers& receivers_;
+  const std::span<const uint32_t> order_;
+  const VirtualLights& lights_;
+  const std::vector<PreparedSphere>& spheres_;
+  const GatherSettings& settings_;
+  GatherParts* const parts_;
+  LightBlock block_;
+  PairMasks pairs_;
+};
+
+}  // namespace lobelia::gather

@@ -1,0 +1,202 @@
+#include "lobelia/gather/lightcuts.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <numeric>
+#include <optional>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/base/random.h"
+#include "lobelia/gather/chosen_gather.h"
+#include "lobelia/gather/light_range.h"
+
+namespace lobelia::gather {
+
+// One receiver after the other.
+class Lightcuts::PointGather {
+ public:
+  PointGather(const Lightcuts& cuts, const Receivers& receivers, GatherTally* tally)
+      : cuts_(cuts),
+        receivers_(receivers),
+        tally_(*tally),
+        refinement_(cuts.forest_, {cuts.settings_.threshold, cuts.settings_.cutSize,
+                                   cuts.settings_.gather.clamp}) {}
+  ~PointGather() { tally_.evaluations += refinement_.evaluations(); }
+  PointGather(const PointGather&) = delete;
+  PointGather& operator=(const PointGather&) = delete;
+
+  // The light of the receiver's cut, without weight.
+  Rgb run(size_t point) {
+    const int64_t start = nanosecondsNow(), traced = tally_.visibilityNs + tally_.shadeNs;
+    tile_ = makeTile(receivers_, point, point + 1);
+    if (tile_.strips.empty()) return {};
+    if (!cuts_.lights_.spherical.empty()) addSampling(receivers_, &tile_);
+    const uint64_t bad = values_.nonfinite;
+    refinement_.run(receiverNodes(receivers_, point, tile_.strips[0]),
+                    [&](std::span<CutNode> fresh, std::span<const CutNode> parents) {
+                      evaluate(fresh, parents);
+                    });
+    Vec3d sum;
+    for (const CutNode& node : refinement_.cut())
+      sum += Vec3d{double{node.value.x}, double{node.value.y}, double{node.value.z}};
+    tally_.lights += refinement_.cut().size();
+    tally_.clusteredLights += cuts_.lightCount_;
+    ++tally_.clusters, ++tally_.clusteredReceivers;
+    if (values_.nonfinite != bad) tally_.noteBad(receivers_.points[point].pixel);
+    tally_.traverseNs += nanosecondsNow() - start - (tally_.visibilityNs + tally_.shadeNs - traced);
+    return {static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)};
+  }
+
+  const Tile& tile() const { return tile_; }
+  // The lights of the last cut.
+  std::vector<ChosenLight> chosen() const {
+    std::vector<ChosenLight> lights;
+    for (const CutNode& node : refinement_.cut()) {
+      const LightForest::Tree& tree = cuts_.forest_.trees[node.tree];
+      lights.push_back({tree.lightClass, lightOf(node), Rgb(scaleOf(node))});
+    }
+    std::sort(lights.begin(), lights.end(), [](const ChosenLight& a, const ChosenLight& b) {
+      return a.lightClass != b.lightClass ? a.lightClass < b.lightClass : a.index < b.index;
+    });
+    return lights;
+  }
+  void countPairs() const {
+    tally_.pairs += values_.pairs;
+    tally_.nonfinite += values_.nonfinite;
+  }
+
+ private:
+  uint32_t leafOf(const CutNode& node) const {
+    return cuts_.representatives_[node.tree][node.node];
+  }
+  uint32_t lightOf(const CutNode& node) const {
+    const LightForest::Tree& tree = cuts_.forest_.trees[node.tree];
+    return tree.lights[tree.tree.nodes()[leafOf(node)].first];
+  }
+  float scaleOf(const CutNode& node) const {
+    const float own = luminance(cuts_.forest_.trees[node.tree].power[leafOf(node)]);
+    return leafOf(node) != node.node && own > 0 ? node.power / own : 1.f;
+  }
+
+  void evaluate(std::span<CutNode> fresh, std::span<const CutNode> parents) {
+    for (const LightClass lightClass : kLightClasses) {
+      waiting_.clear();
+      for (size_t i = 0; i < fresh.size(); ++i) {
+        if (cuts_.forest_.trees[fresh[i].tree].lightClass != lightClass) continue;
+        if (!parents.empty() && leafOf(parents[i / 2]) == leafOf(fresh[i])) {
+          fresh[i].representative = parents[i / 2].representative;
+        } else {
+          waiting_.push_back(&fresh[i]);
+        }
+      }
+      for (size_t i = 0; i < waiting_.size(); i += kBlockLights)
+        evaluateBlock(lightClass,
+                      std::span(waiting_).subspan(i, std::min(kBlockLights, waiting_.size() - i)));
+    }
+    for (CutNode& node : fresh) node.value = node.representative * scaleOf(node);
+  }
+
+  // What stands for the nodes, by the renderer's own kernels on the one receiver.
+  void evaluateBlock(LightClass lightClass, std::span<CutNode* const> nodes) {
+    uint32_t indices[kBlockLights];
+    for (size_t i = 0; i < nodes.size(); ++i) indices[i] = lightOf(*nodes[i]);
+    prepareChosen(cuts_.lights_, cuts_.tracer_.scene(), lightClass, {indices, nodes.size()},
+                  &block_, cuts_.spheres_);
+    allowPairs(tile_, block_, cuts_.lights_, cuts_.settings_.gather, &pairs_);
+    const int64_t start = nanosecondsNow();
+    tally_.rays += keepVisible(tile_, block_, cuts_.tracer_, &pairs_);
+    const int64_t traced = nanosecondsNow();
+    values_.reset(nodes.size(), 1);
+    shadePairs(tile_, block_, cuts_.settings_.gather.clamp, pairs_, &values_);
+    for (size_t i = 0; i < nodes.size(); ++i)
+      nodes[i]->representative = {values_.x[i * kStrip], values_.y[i * kStrip],
+                                  values_.z[i * kStrip]};
+    tally_.visibilityNs += traced - start;
+    tally_.shadeNs += nanosecondsNow() - traced;
+  }
+
+  const Lightcuts& cuts_;
+  const Receivers& receivers_;
+  GatherTally& tally_;
+  CutRefinement refinement_;
+  Tile tile_;
+  LightBlock block_;
+  PairMasks pairs_;
+  PairValues values_;
+  std::vector<CutNode*> waiting_;
+};
+
+Lightcuts::Lightcuts(const Tracer& tracer, const VirtualLights& lights,
+                     const LightcutsSettings& settings, Context& context)
+    : tracer_(tracer),
+      lights_(lights),
+      settings_(settings),
+      spheres_(prepareSpheres(lights, tracer.scene())) {
+  const StageTimer timer(context, "trees");
+  forest_ = plantLights(lights, settings.gather, 1, tracer.scene(), tracer.bounds(), spheres_);
+  chooseRepresentatives();
+}
+
+// Bottom-up: children come after their parent.
+void Lightcuts::chooseRepresentatives() {
+  for (size_t t = 0; t < forest_.trees.size(); ++t) {
+    const LightForest::Tree& tree = forest_.trees[t];
+    const auto nodes = tree.tree.nodes();
+    std::vector<uint32_t>& chosen = representatives_.emplace_back(nodes.size());
+    const uint64_t seed = hashCombine(settings_.seed, t);
+    for (uint32_t i = static_cast<uint32_t>(nodes.size()); i-- > 0;) {
+      chosen[i] = i;
+      if (nodes[i].leaf()) continue;
+      const uint32_t left = tree.tree.left(i), right = tree.tree.right(i);
+      const double a = double{luminance(tree.power[left])},
+                   b = double{luminance(tree.power[right])};
+      const double u = static_cast<double>(hashCombine(seed, i) >> 11) * 0x1p-53;
+      chosen[i] = chosen[u * (a + b) < a || !(b > 0) ? left : right];
+    }
+    lightCount_ += tree.lights.size();
+  }
+}
+
+void Lightcuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
+                       Context& context, GatherParts* parts) const {
+  const size_t points = receivers.points.size();
+  if (radiance.size() != points)
+    throw std::invalid_argument("Lightcuts::gather: one radiance value per receiver point");
+  std::vector<uint32_t> order;
+  std::vector<Rgb> again;  // by the parts' own sums, which are not wanted
+  if (parts != nullptr) {
+    parts->reset(points);
+    order.resize(points);
+    std::iota(order.begin(), order.end(), 0u);
+    again.resize(points);
+  }
+  GatherTally all;
+  std::mutex mutex;
+  std::atomic<size_t> done{0};
+  constexpr size_t kGrain = 32;
+  parallelRanges(points, kGrain, [&](size_t begin, size_t end) {
+    GatherTally tally, partsTally;
+    {
+      PointGather gather(*this, receivers, &tally);
+      ChosenGather partGather(tracer_, receivers, order, lights_, spheres_, settings_.gather,
+                              parts);
+      for (size_t i = begin; i < end && !context.cancelled(); ++i) {
+        if (!holdsPixel(receivers, i, i + 1, onlyPixel)) continue;
+        const uint64_t before = tally.rays;
+        radiance[i] += receivers.points[i].weight * gather.run(i);
+        if (parts == nullptr) continue;
+        partGather.add(gather.tile(), gather.chosen(), again, &partsTally);
+        if (parts->countRays) parts->rays[i] = static_cast<uint32_t>(tally.rays - before);
+      }
+      gather.countPairs();
+    }
+    const std::lock_guard lock(mutex);
+    all.add(tally);
+    done += end - begin;
+    context.progress("gather", static_cast<double>(done) / static_cast<double>(points));
+  });
+  all.book(context);
+}
+
+}  // namespace lobelia::gather

@@ -1,0 +1,18 @@
+// A gather strategy made ready for one set of lights: what all of them have in common.
+#pragma once
+
+#include "lobelia/gather/gather.h"
+
+namespace lobelia::gather {
+
+class PreparedGather {
+ public:
+  virtual ~PreparedGather() = default;
+  // Adds to radiance[i] the light that receiver point i sends to its pixel (weight included), as
+  // gatherAll() does, to whose statistics strategies add their own. onlyPixel:
+  // GatherSettings::onlyPixel. parts: see there; null: none.
+  virtual void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
+                      Context& context, GatherParts* parts) const = 0;
+};
+
+}  // namespace lobelia::gather

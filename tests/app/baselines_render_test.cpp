@@ -1,0 +1,100 @@
+// `render --gather lightslice`, `lightcuts` and `stochastic` as a user types them.
+#include "app/render_test.h"
+#include "lobelia/film/metrics.h"
+
+namespace lobelia {
+namespace {
+
+using BaselinesRender = test::RenderTest;
+
+const std::string kBase =
+    "--lights glossy --clamp 0.3 --size 32x24 --spp 1 --num-lights 1500 --component indirect "
+    "--seed 2 ";
+
+TEST_F(BaselinesRender, LightSlice) {
+  const Film all = render(kBase, "all");
+  double before = 0.1;
+  for (const int columns : {30, 120, 480}) {
+    const std::string name = std::to_string(columns);
+    const Film film = render(kBase + "--gather lightslice --slices 40 --columns " + name, name);
+    const double error = compare(film, all).relmse;
+    EXPECT_LT(error, 0.5 * before) << columns;
+    EXPECT_NEAR(compare(film, all).meanRatio, 1, 0.12) << columns;
+    before = error;
+    const nlohmann::json stats = statistics(name);
+    EXPECT_EQ(stats["gather"]["slices"], 40);
+    EXPECT_EQ(stats["gather"]["columns"], columns);
+    EXPECT_GT(stats["seconds"]["rows"], 0);
+    EXPECT_GT(stats["seconds"]["cluster"], 0);
+    EXPECT_NEAR(stats["counts"]["cut_nodes_per_pixel"], 40.0 * columns / (32 * 24),
+                0.2 * columns * 40 / (32 * 24));
+  }
+}
+
+TEST_F(BaselinesRender, Lightcuts) {
+  const Film all = render(kBase, "all");
+  double before = 1;
+  for (const std::string threshold : {"0.2", "0.05", "0.01"}) {
+    const Film film =
+        render(kBase + "--gather lightcuts --cut-size 3000 --threshold " + threshold, threshold);
+    const double error = compare(film, all).l2;
+    EXPECT_LT(error, 0.75 * before) << threshold;
+    before = error;
+    const nlohmann::json stats = statistics(threshold);
+    EXPECT_EQ(stats["gather"]["threshold"].get<double>(), std::stod(threshold));
+    EXPECT_EQ(stats["gather"]["cut_size"], 3000);
+    EXPECT_GT(stats["counts"]["node_pairs_visited"], 0);
+    EXPECT_GT(stats["seconds"]["trees"], 0);
+    EXPECT_LT(stats["counts"]["cut_nodes_per_pixel"],
+              stats["lights"]["diffuse"].get<double>() + stats["lights"]["glossy"].get<double>());
+  }
+  EXPECT_LT(before, 0.03);
+}
+
+TEST_F(BaselinesRender, StochasticLightcuts) {
+  const Film all = render(kBase, "all");
+  double before = 1;
+  for (const int nodes : {40, 160, 640}) {
+    const std::string name = std::to_string(nodes);
+    const Film film = render(kBase + "--gather stochastic --cut-size " + name, name);
+    const double error = compare(film, all).l2;
+    EXPECT_LT(error, 0.75 * before) << nodes;
+    EXPECT_NEAR(compare(film, all).meanRatio, 1, 0.05) << nodes;
+    before = error;
+    EXPECT_LE(statistics(name)["counts"]["cut_nodes_per_pixel"], 1.1 * nodes)
+        << "some pixels have more than one receiver";
+  }
+}
+
+// Without a threshold all lights are in the cut, and the options that choose parts of a picture go
+// with every gather.
+TEST_F(BaselinesRender, GoWithOtherOptions) {
+  const std::string base = "--size 16x12 --spp 2 --num-lights 100 --clamp 1 --gather ";
+  const std::string lightcuts = "lightcuts --threshold 0 --cut-size 3000";
+  const std::string stochastic = "stochastic --cut-size 3000", slices = "lightslice --columns 3000";
+  for (const auto& [strategy, part] :
+       {std::pair{lightcuts, "--crop 4,2,12,10"}, std::pair{slices, "--pixels 60"},
+        std::pair{stochastic, "--passes 2"}, std::pair{lightcuts, "--direct lights"},
+        std::pair{stochastic, "--max-depth 3"}, std::pair{slices, "--aov groups,types,cost"},
+        std::pair{lightcuts, "--lights vpl"}}) {
+    const Film all = render(base + "all " + part, "all"),
+               some = render(base + strategy + " " + part, "some");
+    EXPECT_EQ(some.alpha, all.alpha) << part;
+    EXPECT_LT(compare(some, all).l2, 1e-4) << strategy << " " << part;
+  }
+}
+
+TEST_F(BaselinesRender, WrongUseSaysWhatWouldBeRight) {
+  expectError("--gather lightslice --rows 10", "--gather mrcs");
+  expectError("--gather mrcs --slices 10", "--gather lightslice");
+  expectError("--gather all --columns 10", "mrcs, lightslice");
+  expectError("--gather mrcs --threshold 0.1", "sglc, lightcuts, stochastic");
+  expectError("--gather lightcuts --threshold 2", "--threshold");
+  expectError("--gather lightslice --cut-size 10", "sglc, lightcuts, stochastic");
+  expectError("--gather lightcut", "lightcuts");
+  expectError("--gather lightslice --num-lights 3000 --memory 1K", "--slices");
+  expectError("--lights path --gather lightcuts", "--lights path");
+}
+
+}  // namespace
+}  // namespace lobelia
