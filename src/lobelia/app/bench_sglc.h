@@ -15,6 +15,7 @@
 // paper's kinds on all scenes, not each on one.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -64,6 +65,10 @@ struct SglcOutcome {
   double lightsPerNode = 0, receiversPerNode = 0;
   Comparison error;  // against the reference, at its pixels
   double per(double count) const { return count / pixels; }
+  // Per pixel; NaN of a strategy that visits no nodes.
+  double visitedOrNone() const {
+    return visited > 0 ? per(visited) : std::numeric_limits<double>::quiet_NaN();
+  }
 };
 
 struct SglcView {

@@ -35,7 +35,7 @@ BenchTable withMeasures(BenchTable table) {
 }
 
 void addMeasures(const SglcOutcome& o, std::vector<BenchCell>* row) {
-  for (const double v : {o.seconds, o.per(o.rays), o.per(o.visited), o.per(o.shaded),
+  for (const double v : {o.seconds, o.per(o.rays), o.visitedOrNone(), o.per(o.shaded),
                          o.per(o.cutNodes), o.error.l2, o.error.meanRatio})
     row->emplace_back(v);
 }
@@ -87,7 +87,7 @@ struct Series {  // a strategy at several qualities
 double secondsOf(const SglcOutcome& o) { return o.seconds; }
 double errorOf(const SglcOutcome& o) { return o.error.l2; }
 double raysOf(const SglcOutcome& o) { return o.per(o.rays); }
-double visitedOf(const SglcOutcome& o) { return o.per(o.visited); }
+double visitedOf(const SglcOutcome& o) { return o.visitedOrNone(); }
 
 // The strategies' points, each a row.
 std::vector<Series> qualitySeries(SglcScene& scene, BenchTable* table, Context& context) {

@@ -29,7 +29,7 @@ namespace {
 using namespace gather;
 
 constexpr uint64_t kSeed = 41, kStream = 0x666c6f6f;
-constexpr size_t kClusters = 512, kBoundPairs = 1 << 16, kBoundBatch = 512;
+constexpr size_t kClusters = 512, kBoundPairs = 1 << 16, kBoundBatch = 512, kBoundRun = 64;
 constexpr double kLeastSeconds = 0.2;  // of a loop that is timed
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -150,12 +150,13 @@ class Samples {
   std::vector<Sample> samples_;
 };
 
-// Random pairs of nodes of the trees of each pairing.
+// Random nodes of receivers to runs of neighbouring nodes of lights, of the trees of each pairing.
 double boundsPerSecond(const Tracer& tracer, const VirtualLights& lights,
                        const Receivers& receivers, const GatherSettings& settings) {
   const Bounds3f bounds = tracer.bounds();
-  const ReceiverForest to = plantReceivers(receivers, 2 * bounds.radius(), false, false);
-  const LightForest from = plantLights(lights, settings, 0, tracer.scene(), bounds, {});
+  const ReceiverForest receiverForest =
+      plantReceivers(receivers, 2 * bounds.radius(), false, false);
+  const LightForest lightForest = plantLights(lights, settings, 0, tracer.scene(), bounds, {});
   struct Pairing {
     LightClass lightClass;
     bool glossy;
@@ -163,18 +164,21 @@ double boundsPerSecond(const Tracer& tracer, const VirtualLights& lights,
   };
   std::vector<Pairing> pairings;
   Rng rng(kStream);
-  const size_t count = kBoundPairs / std::max<size_t>(1, to.trees.size() * from.trees.size()) + 1;
-  for (const auto& receiverTree : to.trees) {
-    for (const auto& lightTree : from.trees) {
+  const size_t count =
+      kBoundPairs / std::max<size_t>(1, receiverForest.trees.size() * lightForest.trees.size()) + 1;
+  for (const auto& receiverTree : receiverForest.trees) {
+    for (const auto& lightTree : lightForest.trees) {
       if (lightTree.apart) continue;
       Pairing& pairing = pairings.emplace_back();
       pairing.lightClass = lightTree.lightClass;
       pairing.glossy = receiverTree.glossy;
-      const auto any = [&](const trees::BoundTree& tree) {
-        return &tree.nodes()[rng.nextUint() % tree.nodes().size()];
-      };
-      for (size_t i = 0; i < count; ++i)
-        pairing.pairs.push_back({any(receiverTree.tree), any(lightTree.tree)});
+      const auto to = receiverTree.tree.nodes(), from = lightTree.tree.nodes();
+      while (pairing.pairs.size() < count) {
+        const trees::BoundNode& receiver = to[rng.nextUint() % to.size()];
+        const size_t first = rng.nextUint() % from.size();
+        for (size_t i = first; i < std::min(first + kBoundRun, from.size()); ++i)
+          pairing.pairs.push_back({&receiver, &from[i]});
+      }
     }
   }
   return ratePerSecond([&] {

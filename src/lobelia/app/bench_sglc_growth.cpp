@@ -35,7 +35,7 @@ class Growth {
       const SglcOutcome& o = scene.outcome(method);
       if (context.cancelled()) return;
       table().rows.push_back({scene.stem(), method.label, x, o.seconds, o.per(o.rays),
-                              o.per(o.visited), o.error.l2, o.error.meanRatio});
+                              o.visitedOrNone(), o.error.l2, o.error.meanRatio});
       addPoint(method.label, x, o.seconds, o.rays);
     }
     const SglcOutcome& all = scene.reference();

@@ -29,7 +29,7 @@ const std::vector<std::pair<std::string, SglcQuality>>& qualities() {
   static const std::vector<std::pair<std::string, SglcQuality>> table{
       {kPaper, {"--threshold", threshold, {0.08, 0.04, 0.02, threshold}, setThreshold}},
       {"sglc", {"--cut-size", cut, {cut / 16, cut / 4, cut, 4 * cut}, setCutSize}},
-      {"mrcs", {"--columns", kNone, {250, 1000, 4000}, setColumns}},
+      {"mrcs", {"--columns", cut, {cut / 4, cut, 4 * cut}, setColumns}},
       {"lightslice", {"--columns", kNone, {100, 400, 1600}, setColumns}},
       {"lightcuts", {"--threshold", kNone, {0.08, 0.04, 0.02, 0.01}, setThreshold}},
       {"mdlc", {"--threshold", kNone, {0.08, 0.04, 0.02, 0.01}, setThreshold}},
@@ -42,6 +42,15 @@ SglcMethod byMode(const std::string& mode) {
   return {"sglc-" + mode, "sglc, " + mode, [mode](RenderOptions& options) {
             options.gather = "sglc";
             options.cutMode = mode;
+          }};
+}
+
+// As many lights as a cut of sglc has: by its own error, mrcs takes most lights of small sets.
+SglcMethod byColumns() {
+  const size_t columns = gather::CutSettings().nodes;
+  return {"mrcs", "mrcs", [columns](RenderOptions& options) {
+            options.gather = "mrcs";
+            options.columns = columns;
           }};
 }
 
@@ -60,6 +69,8 @@ std::vector<SglcMethod> sglcMethods() {
     if (strategy.name == "all" || !gathersGlossyLights(strategy.name)) continue;
     if (strategy.name == "sglc") {
       for (const char* mode : {"shared", "unbiased", "paper"}) methods.push_back(byMode(mode));
+    } else if (strategy.name == "mrcs") {
+      methods.push_back(byColumns());
     } else {
       methods.push_back({strategy.name, strategy.name,
                          [name = strategy.name](RenderOptions& o) { o.gather = name; }});

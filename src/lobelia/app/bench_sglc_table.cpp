@@ -89,7 +89,8 @@ BenchTable emptyTable() {
            {"paper_seconds", "paper: seconds", "{:.0f}"}},
           {},
           {"Seconds of gathering without receivers and light pass; what is not in the stages is "
-           "other preparation (of mrcs: rows and clusters). l2 and mean ratio against every light "
+           "other preparation (of mrcs, which has as many columns as a cut has lights: rows and "
+           "clusters). l2 and mean ratio against every light "
            "at the pixels compared. \"every light\": seconds extrapolated from those pixels. The "
            "paper's: [P000 table 2], 800x600 on a GTX Titan with its numbers of lights."}};
 }
@@ -98,7 +99,7 @@ void methodRow(SglcScene& scene, const SglcMethod& method, double paperRays, dou
                BenchTable* table) {
   const SglcOutcome& o = scene.outcome(method);
   table->rows.push_back({scene.stem(), method.label, o.seconds, o.trees, o.traverse, o.visibility,
-                         o.shade, o.per(o.rays), o.per(o.visited), o.per(o.shaded),
+                         o.shade, o.per(o.rays), o.visitedOrNone(), o.per(o.shaded),
                          o.lightsPerNode > 0 ? o.lightsPerNode : kNone,
                          o.receiversPerNode > 0 ? o.receiversPerNode : kNone, o.error.l2,
                          o.error.meanRatio, paperRays, paperSeconds});
