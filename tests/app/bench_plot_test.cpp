@@ -45,7 +45,7 @@ TEST(BenchPlot, DrawsEveryPointWithinTheAxes) {
       << "a curve without points is not in the legend";
   // Axes end at the outermost points, which are powers of ten.
   EXPECT_NE(svg.find("cx=\"80.0\" cy=\"350.0\""), std::string::npos) << svg;
-  EXPECT_NE(svg.find("cx=\"470.0\" cy=\"20.0\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("cx=\"470.0\" cy=\"30.0\""), std::string::npos) << svg;
   EXPECT_EQ(logLogPlot("x", "y", {{"none", {}}}), "");
 }
 

@@ -9,7 +9,7 @@
 namespace lobelia::app {
 namespace {
 
-constexpr double kWidth = 640, kHeight = 400, kLeft = 80, kTop = 20, kBottom = 50, kLegend = 170;
+constexpr double kWidth = 640, kHeight = 400, kLeft = 80, kTop = 30, kBottom = 50, kLegend = 170;
 constexpr const char* kColors[] = {"#1b6ca8", "#c44536", "#2a9d5c", "#7b4fa3",
                                    "#b07d12", "#444444", "#d0568f", "#188a8d"};
 
@@ -80,9 +80,7 @@ std::string grid(const Axis& x, const Axis& y, const std::string& xLabel,
     out += text(x.from - 6, y.at(step(i)) + 4, "end", fmt::format("{:g}", step(i)));
   }
   out += text(0.5 * (x.from + x.to), kHeight - 12, "middle", xLabel);
-  const double middle = 0.5 * (y.from + y.to);
-  out += fmt::format("<g transform=\"rotate(-90 16 {0:.1f})\">{1}</g>\n", middle,
-                     text(16, middle, "middle", yLabel));
+  out += text(x.from, y.to - 12, "middle", yLabel);
   return out;
 }
 

@@ -93,8 +93,8 @@ class SglcScene {
   const SglcOutcome& outcome(const SglcMethod& method);
   // Seconds of brute force for the whole picture, at the rate of the reference.
   double bruteForceSeconds();
-  // What a method renders with, lights included; where they are made, they are kept.
-  BenchScene::Change changeOf(const SglcMethod& method) const;
+  // Of the whole picture, as all methods have them.
+  std::pair<Receivers, GatherSettings> receivers();
   const VirtualLights& lights();
   ToneCurve toneCurve();  // of the default's picture
   bool referenceIsWhole() const { return scene_.pixelCount() == scene_.pictureCount(); }
@@ -102,6 +102,7 @@ class SglcScene {
   std::string description() const;  // for notes
 
  private:
+  BenchScene::Change changeOf(const SglcMethod& method) const;
   SglcOutcome measure(const SglcMethod& method, BenchScene::Extent extent);
 
   SglcSettings settings_;

@@ -28,7 +28,7 @@ namespace {
 
 using namespace gather;
 
-constexpr uint64_t kSeed = 41, kStream = 0x666c6f6f;
+constexpr uint64_t kStream = 0x666c6f6f;
 constexpr size_t kClusters = 512, kBoundPairs = 1 << 16, kBoundBatch = 512, kBoundRun = 64;
 constexpr double kLeastSeconds = 0.2;  // of a loop that is timed
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -195,6 +195,26 @@ double boundsPerSecond(const Tracer& tracer, const VirtualLights& lights,
   });
 }
 
+BenchTable emptyTable() {
+  return {
+      "floors",
+      "Gathering against the floors of its parts",
+      {{"scene", "scene"},
+       {"method", "method"},
+       {"mrays_per_second", "bare rays, M/s", "{:.1f}"},
+       {"mshadings_per_second", "bare shading, M pairs/s", "{:.1f}"},
+       {"mbounds_per_second", "bare bounds, M/s", "{:.1f}"},
+       {"ray_floor", "seconds: rays", "{:.2f}"},
+       {"shade_floor", "shading", "{:.2f}"},
+       {"bound_floor", "bounds", "{:.2f}"},
+       {"seconds", "whole gather", "{:.2f}"},
+       {"ratio", "over the floors", "{:.2f}"}},
+      {},
+      {"Rates on all threads by the clock. Node importance has no bare loop: the floors of modes "
+       "shared and unbiased lack it. Rays: from each receiver of a cluster to one light after "
+       "another; rays that stand for a whole cluster cost more."}};
+}
+
 }  // namespace
 
 void sglcFloors(SglcScene& scene, FigureReport& report, Context& context) {
@@ -208,30 +228,13 @@ void sglcFloors(SglcScene& scene, FigureReport& report, Context& context) {
   }
   scene.progress("floors");
   const Tracer& tracer = scene.scene().tracer();
-  const auto [receivers, settings] =
-      scene.scene().receivers(scene.changeOf(defaultMethod()), kSeed);
+  const auto [receivers, settings] = scene.receivers();
   if (context.cancelled() || receivers.points.empty() || scene.lights().size() == 0) return;
   const Samples samples(tracer, scene.lights(), receivers, settings, scene.scene().camera().width);
   const BareRays bare(tracer.scene(), context);
   const double rays = samples.rays(bare), shadings = samples.shadings(),
                bounds = boundsPerSecond(tracer, scene.lights(), receivers, settings);
-  BenchTable& table = report.table(
-      {"floors",
-       "Gathering against the floors of its parts",
-       {{"scene", "scene"},
-        {"method", "method"},
-        {"mrays_per_second", "bare rays, M/s", "{:.1f}"},
-        {"mshadings_per_second", "bare shading, M pairs/s", "{:.1f}"},
-        {"mbounds_per_second", "bare bounds, M/s", "{:.1f}"},
-        {"ray_floor", "seconds: rays", "{:.2f}"},
-        {"shade_floor", "shading", "{:.2f}"},
-        {"bound_floor", "bounds", "{:.2f}"},
-        {"seconds", "whole gather", "{:.2f}"},
-        {"ratio", "over the floors", "{:.2f}"}},
-       {},
-       {"Rates on all threads by the clock. Node importance has no bare loop: the floors of modes "
-        "shared and unbiased lack it. Rays: from each receiver of a cluster to one light after "
-        "another; rays that stand for a whole cluster cost more."}});
+  BenchTable& table = report.table(emptyTable());
   for (size_t i = 0; i < methods.size(); ++i) {
     const SglcOutcome& o = *outcomes[i];
     const bool paper = methods[i].key == approximateMethod().key;

@@ -56,6 +56,27 @@ void addPairings(SglcScene& scene, const SglcMethod& method, BenchTable* table,
   }
 }
 
+// What the rays of pixels are, as a row and in false colours.
+FigurePicture addCost(SglcScene& scene, const SglcMethod& method, BenchTable* table,
+                      FigureReport& report) {
+  const Film& film = scene.outcome(method).film;
+  std::vector<float> rays = film.layers.at("cost").values;
+  std::sort(rays.begin(), rays.end());
+  const auto quantile = [&](double q) {
+    return static_cast<double>(rays[static_cast<size_t>(q * static_cast<double>(rays.size() - 1))]);
+  };
+  double sum = 0;
+  for (const float r : rays) sum += static_cast<double>(r);
+  const FalseColors colors = falseColors(film, "cost");
+  const std::string file = report.picture(
+      fmt::format("figure4-{}-{}-cost", scene.stem(), method.key), colors.pixels, film);
+  table->rows.push_back({scene.stem(), method.label, sum / static_cast<double>(rays.size()),
+                         quantile(0.5), quantile(0.99), quantile(1), file});
+  return {fmt::format("{}: {:.0f} (black) to {:.0f} rays (white)", method.label, colors.least,
+                      colors.most),
+          file};
+}
+
 }  // namespace
 
 void sglcLayers(SglcScene& scene, FigureReport& report, Context& context) {
@@ -94,22 +115,7 @@ void sglcLayers(SglcScene& scene, FigureReport& report, Context& context) {
     addPairings(scene, method, &table, report, &line);
     report.show("figure4", scene.stem() + ", " + method.label, std::move(line));
 
-    std::vector<float> rays = outcome.film.layers.at("cost").values;
-    std::sort(rays.begin(), rays.end());
-    const auto quantile = [&](double q) {
-      return static_cast<double>(
-          rays[static_cast<size_t>(q * static_cast<double>(rays.size() - 1))]);
-    };
-    double sum = 0;
-    for (const float r : rays) sum += static_cast<double>(r);
-    const FalseColors colors = falseColors(outcome.film, "cost");
-    const std::string file = report.picture(
-        fmt::format("figure4-{}-{}-cost", scene.stem(), method.key), colors.pixels, outcome.film);
-    heat.push_back({fmt::format("{}: {:.0f} (black) to {:.0f} rays (white)", method.label,
-                                colors.least, colors.most),
-                    file});
-    cost.rows.push_back({scene.stem(), method.label, sum / static_cast<double>(rays.size()),
-                         quantile(0.5), quantile(0.99), quantile(1), file});
+    heat.push_back(addCost(scene, method, &cost, report));
   }
   table.notes.push_back(scene.description());
   report.show("figure4_cost", scene.stem(), std::move(heat));

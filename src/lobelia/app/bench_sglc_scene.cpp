@@ -66,6 +66,10 @@ const VirtualLights& SglcScene::lights() {
   return *lights_;
 }
 
+std::pair<Receivers, GatherSettings> SglcScene::receivers() {
+  return scene_.receivers(changeOf(defaultMethod()), kSeed);
+}
+
 SglcOutcome SglcScene::measure(const SglcMethod& method, BenchScene::Extent extent) {
   lights();
   SglcOutcome outcome;

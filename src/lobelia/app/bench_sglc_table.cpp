@@ -59,12 +59,11 @@ void sceneRow(SglcScene& scene, FigureReport& report) {
                              static_cast<double>(ours.report.diffuseReceivers),
                              static_cast<double>(ours.report.glossyReceivers)};
   const PaperRow* paper = paperRow(scene.name());
-  const double none[6] = {kNone, kNone, kNone, kNone, kNone, kNone};
-  const double theirs[6] = {paper ? paper->triangles : 0,     paper ? paper->direct : 0,
-                            paper ? paper->diffuseLights : 0, paper ? paper->glossyLights : 0,
-                            paper ? paper->diffusePixels : 0, paper ? paper->glossyPixels : 0};
-  for (size_t i = 0; i < std::size(theirs); ++i)
-    row.emplace_back(paper ? 1000 * theirs[i] : none[i]);
+  const PaperRow p =
+      paper ? *paper : PaperRow{"", kNone, kNone, kNone, kNone, kNone, kNone, 0, 0, 0, 0};
+  for (const double thousands :
+       {p.triangles, p.direct, p.diffuseLights, p.glossyLights, p.diffusePixels, p.glossyPixels})
+    row.emplace_back(1000 * thousands);
   table.rows.push_back(std::move(row));
 }
 
