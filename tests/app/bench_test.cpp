@@ -206,7 +206,7 @@ TEST(BenchVsl, BoxesOfItsOwn) {
 }
 
 const std::string kTinySglc =
-    " --scene study-ggx --detail 0.2 --size 24x18 --pixels 100 --num-lights 3000 ";
+    " --scene study-ggx --detail 0.2 --size 24x18 --pixels 80 --num-lights 2000 ";
 
 // The rows of a method (and, where it is given, of a bound).
 std::vector<json> rowsOf(const json& rows, const std::string& key, const std::string& value) {
