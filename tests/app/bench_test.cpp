@@ -52,6 +52,9 @@ TEST(Bench, UnknownNamesAreToldTheNearest) {
   EXPECT_EQ(runProgram("bench clamp --columns 10").exitCode, 2);
   EXPECT_EQ(runProgram("bench vsl --figures 1,3").exitCode, 2);
   EXPECT_EQ(runProgram("bench vsl --figures 1,").exitCode, 2);
+  EXPECT_EQ(runProgram("bench sglc --figures 1").exitCode, 2);
+  EXPECT_EQ(runProgram("bench sglc --columns 10").exitCode, 2);
+  EXPECT_EQ(runProgram("bench clamp --figures 4").exitCode, 2);
 }
 
 TEST(Bench, Rates) {
@@ -121,8 +124,9 @@ std::string tinyVsl(const std::string& size, int lights, int columns) {
       size, lights, columns);
 }
 
-void expectPictures(const TemporaryFolder& folder, const std::vector<std::string>& names) {
-  const std::string page = test::readText(folder / "vsl.md");
+void expectPictures(const TemporaryFolder& folder, const std::string& study,
+                    const std::vector<std::string>& names) {
+  const std::string page = test::readText(folder / (study + ".md"));
   for (const std::string& name : names) {
     EXPECT_TRUE(std::filesystem::exists(folder / (name + ".png"))) << name;
     EXPECT_NE(page.find("(" + name + ".png)"), std::string::npos) << name << " in\n" << page;
@@ -155,9 +159,10 @@ TEST(BenchVsl, MethodsSideBySide) {
   EXPECT_EQ(l2Of(result["figure7"], "VSL, our defaults"), vsl);
   EXPECT_LE(l2Of(result["figure2"], "glossy VPL, best clamp"),
             l2Of(result["figure2"], "glossy VPL, no clamp") + 1e-9);
-  expectPictures(folder, {"figure1-study-ggx-reference", "figure1-study-ggx-missing",
-                          "figure2-study-ggx-vpl-unclamped", "figure6-study-ggx-reference",
-                          "figure7-study-ggx-vsl-signed", "figure7-study-ggx-vsl-absolute"});
+  expectPictures(folder, "vsl",
+                 {"figure1-study-ggx-reference", "figure1-study-ggx-missing",
+                  "figure2-study-ggx-vpl-unclamped", "figure6-study-ggx-reference",
+                  "figure7-study-ggx-vsl-signed", "figure7-study-ggx-vsl-absolute"});
   for (const char* name : {"figure1-study-ggx-vpl-clamped.exr", "figure1-study-ggx-vsl.exr",
                            "figure6-study-ggx-vsl-paper.exr"})
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
@@ -195,8 +200,78 @@ TEST(BenchVsl, BoxesOfItsOwn) {
     EXPECT_NEAR(sampling[i]["mean_ratio"].get<double>(), 1, 0.15) << sampling[i];
   }
   EXPECT_LT(sampling[3]["noise"], sampling[2]["noise"]) << "more samples, less noise";
-  expectPictures(folder, {"figure4-study-corners-reference", "figure4-study-corners-vsl-planar",
-                          "figure5-study-ward-cone", "figure5-study-ward-exact"});
+  expectPictures(folder, "vsl",
+                 {"figure4-study-corners-reference", "figure4-study-corners-vsl-planar",
+                  "figure5-study-ward-cone", "figure5-study-ward-exact"});
+}
+
+const std::string kTinySglc =
+    " --scene study-ggx --detail 0.2 --size 24x18 --pixels 80 --num-lights 2000 ";
+
+// The rows of a method (and, where it is given, of a bound).
+std::vector<json> rowsOf(const json& rows, const std::string& key, const std::string& value) {
+  std::vector<json> found;
+  for (const json& row : rows)
+    if (row[key] == value) found.push_back(row);
+  EXPECT_FALSE(found.empty()) << key << " " << value << " in " << rows;
+  return found;
+}
+double number(const json& row, const std::string& key) {
+  EXPECT_TRUE(row[key].is_number()) << key << " in " << row;
+  return row[key].is_number() ? row[key].get<double>() : std::nan("");
+}
+
+TEST(BenchSglc, TableLayersBoundsAndFloors) {
+  const TemporaryFolder folder;
+  const json result =
+      runBench("sglc --figures table2,4,6,floors" + kTinySglc + "-o " + folder.path());
+  const json& table = result["table2"];
+  for (const char* method : {"sglc, shared", "sglc, unbiased", "sglc, paper", "sglc, paper, E_c"}) {
+    const json row = rowsOf(table, "method", method).at(0);
+    EXPECT_LT(number(row, "l2"), 0.1) << row;
+    EXPECT_NEAR(number(row, "mean_ratio"), 1, 0.03) << row;
+    EXPECT_GT(number(row, "visited_per_pixel"), 0) << row;
+    EXPECT_TRUE(row["paper_seconds"].is_null()) << "a scene that the paper does not have: " << row;
+  }
+  rowsOf(table, "method", "mrcs");
+  const double all = number(rowsOf(table, "method", "every light").at(0), "rays_per_pixel");
+  const json scene = result["table2_scenes"].at(0);
+  EXPECT_GT(number(scene, "glossy_lights"), 0);
+  EXPECT_LE(all, 1.1 * (number(scene, "diffuse_lights") + number(scene, "glossy_lights") +
+                        number(scene, "direct")));
+  double shares = 0;
+  for (const json& row : rowsOf(result["figure4"], "method", "sglc, shared"))
+    shares += number(row, "share");
+  EXPECT_NEAR(shares, 1, 0.02) << result["figure4"];
+  const std::vector<json> strict = rowsOf(result["figure6"], "bound", "E_c"),
+                          loose = rowsOf(result["figure6"], "bound", "E_a");
+  ASSERT_EQ(strict.size(), loose.size());
+  for (size_t i = 0; i < strict.size(); ++i)
+    EXPECT_GE(number(strict[i], "rays_per_pixel"), number(loose[i], "rays_per_pixel"));
+  EXPECT_LT(number(loose.back(), "l2"), number(loose.front(), "l2")) << "smaller thresholds";
+  expectNumbers(result["floors"], 3, {"mrays_per_second", "mshadings_per_second", "ratio"});
+  expectPictures(folder, "sglc",
+                 {"table2-study-ggx-sglc-shared", "figure4-study-ggx-sglc-shared-layers-dd",
+                  "figure4-study-ggx-sglc-paper-layers-cost", "figure6-study-ggx-sglc-paper-cost"});
+}
+
+TEST(BenchSglc, CurvesAndGrowth) {
+  const TemporaryFolder folder;
+  const std::string arguments = "sglc --figures 8,9" + kTinySglc;
+  const json result = runBench(arguments + "-o " + folder.path());
+  for (const char* method : {"sglc, unbiased", "sglc, paper"}) {
+    const std::vector<json> points = rowsOf(result["figure8"], "method", method);
+    ASSERT_GE(points.size(), 3u);
+    EXPECT_LT(number(points.back(), "l2"), number(points.front(), "l2")) << method;
+  }
+  const json ours = rowsOf(result["figure8_equal"], "method", "sglc, shared").at(0);
+  EXPECT_EQ(number(ours, "visited_ratio"), 1) << ours;
+  for (const json& row : rowsOf(result["figure9"], "method", "every light"))
+    EXPECT_NEAR(number(row, "rays"), 1, 0.15) << row;
+  EXPECT_EQ(rowsOf(result["figure9_lights"], "method", "sglc, paper").size(), 3u);
+  EXPECT_EQ(rowsOf(result["figure9_pixels"], "method", "sglc, paper").size(), 3u);
+  for (const char* name : {"figure8-study-ggx-time.svg", "figure9_lights-study-ggx.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
 
 }  // namespace

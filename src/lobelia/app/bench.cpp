@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <span>
 
@@ -20,13 +21,17 @@ struct Study {
   const char* name;
   const char* summary;
   std::vector<BenchTable> (*run)(const BenchOptions&, Context&);
+  const std::vector<std::string>& (*figures)() = nullptr;  // null: it takes no --figures
 };
 constexpr Study kStudies[] = {
     {"rates", "rays per second: bare, of the gather, of the path tracer", benchRates},
     {"picture", "time and error of whole pictures", benchPicture},
     {"clamp", "energy that clamping loses, against the path tracer", benchClamp},
     {"convergence", "mean of glossy virtual lights against the path tracer", benchConvergence},
-    {"vsl", "virtual spherical lights: figures 1, 2 and 4 to 8 of their paper", benchVsl},
+    {"vsl", "virtual spherical lights: figures 1, 2 and 4 to 8 of their paper", benchVsl,
+     vslFigures},
+    {"sglc", "spherical-Gaussian lightcuts: table 2 and figures 4 to 9 of their paper", benchSglc,
+     sglcFigures},
 };
 
 std::vector<std::string> studyNames() {
@@ -37,7 +42,12 @@ std::vector<std::string> studyNames() {
 
 std::vector<std::string> figureNames() {
   std::vector<std::string> names;
-  for (const int figure : kVslFigures) names.push_back(std::to_string(figure));
+  for (const Study& study : kStudies) {
+    if (study.figures == nullptr) continue;
+    for (const std::string& figure : study.figures())
+      if (std::find(names.begin(), names.end(), figure) == names.end()) names.push_back(figure);
+  }
+  std::sort(names.begin(), names.end());
   return names;
 }
 
@@ -52,14 +62,19 @@ const Study& findStudy(const std::string& name) {
 }
 
 // Throws where an option is given to a study that knows nothing of it.
-void requireOptions(const BenchOptions& options) {
-  if (options.name == "vsl") return;
-  if (options.scenes.size() > 1)
-    throw UsageError(fmt::format("bench {} takes one --scene; vsl takes several", options.name));
-  if (!options.output.empty() || !options.figures.empty() || options.rows > 0 ||
-      options.columns > 0) {
-    throw UsageError(fmt::format(
-        "bench {} has no use for --output, --figures, --rows or --columns; vsl has", options.name));
+void requireOptions(const Study& study, const BenchOptions& options) {
+  if (options.name != "vsl" && (options.rows > 0 || options.columns > 0)) {
+    throw UsageError(
+        fmt::format("bench {} has no use for --rows or --columns; vsl has", options.name));
+  }
+  if (study.figures != nullptr) return;
+  if (options.scenes.size() > 1) {
+    throw UsageError(
+        fmt::format("bench {} takes one --scene; vsl and sglc take several", options.name));
+  }
+  if (!options.output.empty() || !options.figures.empty()) {
+    throw UsageError(fmt::format("bench {} has no use for --output or --figures; vsl and sglc have",
+                                 options.name));
   }
 }
 
@@ -91,15 +106,16 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
       ->check(offered(studyNames()))
       ->required();
   c.add_option("--scene", o.scenes,
-               "Run the study on this scene file or built-in scene instead of its own; vsl takes "
-               "several")
+               "Run the study on this scene file or built-in scene instead of its own; vsl and "
+               "sglc take several")
       ->type_name("FILE|SCENE")
       ->allow_extra_args(false);
-  c.add_option("-o,--output", o.output,
-               "vsl: folder for pictures and for a page that shows them with the tables; without "
-               "it only the pixels compared are rendered")
+  c.add_option(
+       "-o,--output", o.output,
+       "vsl, sglc: folder for pictures and for a page that shows them with the tables; without "
+       "it vsl renders only the pixels compared")
       ->type_name("FOLDER");
-  c.add_option("--figures", o.figures, "vsl: figures of the paper; default: all")
+  c.add_option("--figures", o.figures, "vsl, sglc: figures of the paper; default: all")
       ->type_name("LIST")
       ->check(offered(figureNames()));
   c.add_option("--json", o.json, "Write the tables as JSON")->type_name("FILE");
@@ -117,7 +133,7 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
   c.add_option("--camera", o.camera, "Camera by name or index (from 0)")->type_name("NAME");
   c.add_option("--size", o.size, "WxH in pixels")->type_name("WxH");
   c.add_option("--pixels", o.pixels,
-               "clamp, convergence, vsl: pixels compared, spread over the image")
+               "clamp, convergence, vsl, sglc: pixels compared, spread over the image")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 32));
   c.add_option("--max-depth", o.maxDepth, "As for render; default: the scene's, else unlimited")
@@ -149,7 +165,7 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
 ExitCode bench(const BenchOptions& asked, const GlobalOptions& global,
                const std::string& commandLine) {
   const Study& study = findStudy(asked.name);
-  requireOptions(asked);
+  requireOptions(study, asked);
   BenchOptions options = asked;
   options.commandLine = commandLine;
   if (!options.scenes.empty()) options.scene.scene = options.scenes.front();

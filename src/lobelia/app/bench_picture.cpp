@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lobelia/app/bench_scene.h"
+#include "lobelia/app/bench_spent.h"
 #include "lobelia/app/bench_studies.h"
 #include "lobelia/film/metrics.h"
 
@@ -13,33 +14,6 @@ namespace {
 
 constexpr uint64_t kLights = 2048, kSeed = 3, kReferenceSeed = 4;
 constexpr int kWidth = 256, kSpp = 1024, kEyeSamples = 4;
-
-const std::vector<std::string> kStages = {"receivers", "lights", "visibility", "shade"};
-
-// What a picture has added to the statistics.
-class Spent {
- public:
-  explicit Spent(const Context& context) : statistics_(context.statistics) {
-    for (const std::string& stage : kStages) before_.push_back(statistics_.seconds(stage));
-    rays_ = rays();
-  }
-  double seconds(const std::string& stage) const {
-    for (size_t i = 0; i < kStages.size(); ++i)
-      if (kStages[i] == stage) return statistics_.seconds(stage) - before_[i];
-    return 0;
-  }
-  double traced() const { return rays() - rays_; }
-  double total() const { return 1e-9 * static_cast<double>(nanosecondsNow() - start_); }
-
- private:
-  double rays() const {
-    return static_cast<double>(statistics_.count("shadow_rays") + statistics_.count("path_rays"));
-  }
-  const Statistics& statistics_;
-  std::vector<double> before_;
-  double rays_ = 0;
-  int64_t start_ = nanosecondsNow();
-};
 
 }  // namespace
 
@@ -72,7 +46,8 @@ std::vector<BenchTable> benchPicture(const BenchOptions& options, Context& conte
     if (context.cancelled()) return;
     const Spent spent(context);
     const Film film = picture();
-    const double seconds = spent.total(), rays = spent.traced();
+    const double seconds = spent.total(),
+                 rays = spent.count("shadow_rays") + spent.count("path_rays");
     if (context.cancelled()) return;
     const Comparison error = compare(film, reference.first, &reference.second);
     table.rows.push_back({method, lights, static_cast<double>(samples), seconds,

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "lobelia/app/band_plan.h"
 #include "lobelia/app/bench_studies.h"
 #include "lobelia/app/light_layers.h"
 #include "lobelia/app/light_sets.h"
 #include "lobelia/app/load_scene.h"
-#include "lobelia/app/render_virtual_lights.h"
 #include "lobelia/base/random.h"
 
 namespace lobelia::app {
@@ -158,6 +158,29 @@ Film BenchScene::withLights(VirtualLights lights, const Change& change, uint64_t
     renderVirtualLights(tracer_, emitters_, camera_, pixels, maxDepth_, options, film, context_,
                         nullptr, nullptr, &set);
   });
+}
+
+BenchScene::Gathered BenchScene::gathered(std::optional<VirtualLights>* lights,
+                                          const Change& change, uint64_t seed, Extent extent) {
+  RenderOptions options = options_;
+  change(options);
+  Gathered result;
+  result.film = render(options, seed, extent, [&](const PixelSet& pixels, Film& film) {
+    addLightLayers(emitters_.groups(), options, film);
+    result.report = renderVirtualLights(tracer_, emitters_, camera_, pixels, maxDepth_, options,
+                                        film, context_, nullptr, nullptr, lights);
+  });
+  return result;
+}
+
+std::pair<Receivers, GatherSettings> BenchScene::receivers(const Change& change, uint64_t seed) {
+  RenderOptions options = options_;
+  change(options);
+  Film film = makeFilm(camera_, options);
+  context_.seed = hashCombine(options_.seed, seed);
+  const BandPlan plan = planBands(tracer_, {}, maxDepth_, 1, options, film);
+  return {traceReceivers(tracer_, emitters_, camera_, plan.eye, 0, film.height, film, context_),
+          plan.gather};
 }
 
 double BenchScene::mean(const Film& film) const {

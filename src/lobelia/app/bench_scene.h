@@ -5,6 +5,7 @@
 
 #include "lobelia/app/bench.h"
 #include "lobelia/app/frame_setup.h"
+#include "lobelia/app/render_virtual_lights.h"
 #include "lobelia/lights/virtual_lights.h"
 #include "lobelia/path/path_tracer.h"
 
@@ -48,12 +49,24 @@ class BenchScene {
   VirtualLights lights(const Change& change, uint64_t seed);
   Film withLights(VirtualLights lights, const Change& change, uint64_t seed, Extent extent);
 
+  // A picture with the set `lights`, which is made where it is not there yet, the layers that
+  // `change` asks for included, and what there is to tell of it.
+  struct Gathered {
+    Film film;
+    VirtualLightReport report;
+  };
+  Gathered gathered(std::optional<VirtualLights>* lights, const Change& change, uint64_t seed,
+                    Extent extent);
+  // The receivers of that picture, whole, and the settings by which they gather.
+  std::pair<Receivers, GatherSettings> receivers(const Change& change, uint64_t seed);
+
   double mean(const Film& film) const;  // over the pixels and channels
   float radius() const { return tracer_.bounds().radius(); }
   const std::string& name() const { return name_; }
   size_t pixelCount() const;
   size_t pictureCount() const;  // pixels of the whole
   const Camera& camera() const { return camera_; }
+  const Tracer& tracer() const { return tracer_; }
 
  private:
   using Method = std::function<void(const PixelSet&, Film&)>;

@@ -14,7 +14,9 @@ std::vector<BenchTable> benchRates(const BenchOptions& options, Context& context
 std::vector<BenchTable> benchPicture(const BenchOptions& options, Context& context);
 std::vector<BenchTable> benchClamp(const BenchOptions& options, Context& context);
 std::vector<BenchTable> benchConvergence(const BenchOptions& options, Context& context);
-inline constexpr int kVslFigures[] = {1, 2, 4, 5, 6, 7, 8};
+const std::vector<std::string>& vslFigures();  // what --figures may name
 std::vector<BenchTable> benchVsl(const BenchOptions& options, Context& context);
+const std::vector<std::string>& sglcFigures();
+std::vector<BenchTable> benchSglc(const BenchOptions& options, Context& context);
 
 }  // namespace lobelia::app

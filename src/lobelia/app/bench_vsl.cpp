@@ -2,11 +2,6 @@
 // have (bench_vsl.h says where the rest is).
 #include "lobelia/app/bench_vsl.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-
 #include "lobelia/app/bench_studies.h"
 
 namespace lobelia::app {
@@ -14,28 +9,9 @@ namespace {
 
 const std::vector<std::string> kScenes = {"kitchen-stove", "hall", "tableau-ward"};
 
-std::set<int> parseFigures(const std::string& text) {
-  if (text.empty()) return {std::begin(kVslFigures), std::end(kVslFigures)};
-  std::set<int> figures;
-  for (const char *p = text.data(), *end = p + text.size();; ++p) {
-    int figure = 0;
-    const auto [next, error] = std::from_chars(p, end, figure);
-    const bool known =
-        std::find(std::begin(kVslFigures), std::end(kVslFigures), figure) != std::end(kVslFigures);
-    if (error != std::errc() || !known || (next != end && *next != ',')) {
-      throw UsageError(fmt::format(
-          "--figures '{}': figures are separated by commas; there are 1, 2, 4, 5, 6, 7 and 8",
-          text));
-    }
-    figures.insert(figure);
-    if (next == end) return figures;
-    p = next;
-  }
-}
-
 VslSettings settingsOf(const BenchOptions& options) {
   VslSettings s;
-  s.figures = parseFigures(options.figures);
+  s.figures = chosenFigures(options.figures, vslFigures());
   s.folder = options.output;
   if (options.lightCount > 0) s.lights = options.lightCount;
   if (options.columns > 0) s.columns = options.columns;
@@ -46,9 +22,14 @@ VslSettings settingsOf(const BenchOptions& options) {
 
 }  // namespace
 
+const std::vector<std::string>& vslFigures() {
+  static const std::vector<std::string> figures{"1", "2", "4", "5", "6", "7", "8"};
+  return figures;
+}
+
 std::vector<BenchTable> benchVsl(const BenchOptions& options, Context& context) {
   const VslSettings settings = settingsOf(options);
-  VslReport report(settings.folder);
+  FigureReport report(settings.folder, "vsl", "Virtual spherical lights: figures of [Hasan09]");
   const auto page = [&] { report.writePage(options.commandLine); };
   const bool ofScenes =
       settings.has(1) || settings.has(2) || settings.has(6) || settings.has(7) || settings.has(8);

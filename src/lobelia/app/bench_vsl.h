@@ -2,7 +2,6 @@
 //
 //  bench_vsl.cpp          options, scenes, figures: the study itself
 //  bench_vsl_scene.cpp    a scene with its references and what is measured against them
-//  bench_vsl_report.cpp   tables and pictures, and the page that shows them
 //  bench_vsl_methods.cpp  figures 1, 2, 6 and 7: methods side by side
 //  bench_vsl_curves.cpp   figure 8: error over columns, radius and clamp
 //  bench_vsl_boxes.cpp    figures 4 and 5: corners, sampling
@@ -11,51 +10,20 @@
 #include <map>
 #include <set>
 
-#include "lobelia/app/bench_report.h"
+#include "lobelia/app/bench_figures.h"
 #include "lobelia/app/bench_scene.h"
 #include "lobelia/film/metrics.h"
 
 namespace lobelia::app {
 
 struct VslSettings {
-  std::set<int> figures;
+  std::set<std::string> figures;
   std::string folder;  // of pictures; empty: numbers alone, rendered for the pixels compared
   uint64_t lights = 250'000;
   size_t rows = 0, columns = 5000;  // of --gather mrcs; rows 0: its default
   int pathSamples = 8192;           // of the reference, both halves together
   int eyeSamples = 4;               // 2 x 2, as in the paper
-  bool has(int figure) const { return figures.contains(figure); }
-};
-
-struct VslPicture {
-  std::string caption, file;  // the file within the folder
-};
-
-// Tables by key, in the order in which they were begun, and pictures below each.
-class VslReport {
- public:
-  explicit VslReport(std::string folder);
-  bool hasPictures() const { return !folder_.empty(); }
-
-  // The table of that key, begun with what `empty` holds when there is none yet.
-  BenchTable& table(const BenchTable& empty);
-  // Writes NAME.exr and NAME.png, tone-mapped; "" where no pictures are wanted.
-  std::string picture(const std::string& name, const Film& film, const ToneCurve& curve) const;
-  std::string picture(const std::string& name, const std::vector<uint8_t>& pixels,
-                      const Film& shape) const;
-  // A line of pictures below a table; those without a file are left out.
-  void show(const std::string& tableKey, const std::string& title, std::vector<VslPicture> line);
-  void writePage(const std::string& command) const;  // FOLDER/vsl.md, as far as the study is
-  std::vector<BenchTable> takeTables() { return std::move(tables_); }
-
- private:
-  struct Line {
-    std::string tableKey, title;
-    std::vector<VslPicture> pictures;
-  };
-  std::string folder_;
-  std::vector<BenchTable> tables_;
-  std::vector<Line> lines_;
+  bool has(int figure) const { return figures.contains(std::to_string(figure)); }
 };
 
 struct VslMethod {
@@ -116,12 +84,12 @@ class VslScene {
 };
 
 // Figures of one scene.
-void vslMethodFigures(VslScene& scene, VslReport& report, Context& context);
-void vslCurves(VslScene& scene, VslReport& report, Context& context);
+void vslMethodFigures(VslScene& scene, FigureReport& report, Context& context);
+void vslCurves(VslScene& scene, FigureReport& report, Context& context);
 // Figures with scenes of their own.
-void vslCorners(const BenchOptions& options, const VslSettings& settings, VslReport& report,
+void vslCorners(const BenchOptions& options, const VslSettings& settings, FigureReport& report,
                 Context& context);
-void vslSampling(const BenchOptions& options, const VslSettings& settings, VslReport& report,
+void vslSampling(const BenchOptions& options, const VslSettings& settings, FigureReport& report,
                  Context& context);
 
 }  // namespace lobelia::app

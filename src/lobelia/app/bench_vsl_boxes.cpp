@@ -63,7 +63,7 @@ Film lightOf(BenchScene& scene, VirtualLights light, const SphereShading& shadin
 
 }  // namespace
 
-void vslCorners(const BenchOptions& options, const VslSettings& settings, VslReport& report,
+void vslCorners(const BenchOptions& options, const VslSettings& settings, FigureReport& report,
                 Context& context) {
   VslSettings few = settings;
   few.lights = std::min(few.lights, kCornerLights);
@@ -84,7 +84,7 @@ void vslCorners(const BenchOptions& options, const VslSettings& settings, VslRep
                                     {fmt::format("{}, {} lights; spherical ones with the "
                                                  "automatic radius.",
                                                  scene.name(), few.lights)}});
-  std::vector<VslPicture> line;
+  std::vector<FigurePicture> line;
   const auto save = [&](const std::string& key, const Film& film) {
     return report.picture("figure4-" + scene.stem() + "-" + key, film, scene.toneCurve());
   };
@@ -103,7 +103,7 @@ void vslCorners(const BenchOptions& options, const VslSettings& settings, VslRep
   report.show("figure4", scene.name(), std::move(line));
 }
 
-void vslSampling(const BenchOptions& options, const VslSettings&, VslReport& report,
+void vslSampling(const BenchOptions& options, const VslSettings&, FigureReport& report,
                  Context& context) {
   BenchOptions own = options;
   own.scene.scene = "study-ward";
@@ -134,7 +134,7 @@ void vslSampling(const BenchOptions& options, const VslSettings&, VslReport& rep
                     "indicator. Noise is the l2 of one evaluation per pixel from one of {} product "
                     "samples.",
                     kLargeRadius, kExactSamples)}});
-  std::vector<VslPicture> line;
+  std::vector<FigurePicture> line;
   for (size_t i = 0; i < std::size(kSamplings); ++i) {
     context.progress(stage, (1.0 + static_cast<double>(i)) / (1 + std::size(kSamplings)));
     const int64_t start = nanosecondsNow();

@@ -53,7 +53,7 @@ Comparison withChange(VslScene& scene, const BenchScene::Change& lights,
 }
 
 // The last row is all lights, each at every pixel.
-void overColumns(VslScene& scene, VslReport& report, Context& context) {
+void overColumns(VslScene& scene, FigureReport& report, Context& context) {
   BenchTable& table = report.table(errorTable("figure8_columns", "Figure 8: error over columns",
                                               {"columns", "columns", "{:.0f}"}));
   const size_t lights = scene.settings().lights;
@@ -85,7 +85,7 @@ void overColumns(VslScene& scene, VslReport& report, Context& context) {
                   scene.name(), lights, scene.paperRadius()));
 }
 
-void overRadius(VslScene& scene, VslReport& report, Context& context) {
+void overRadius(VslScene& scene, FigureReport& report, Context& context) {
   BenchTable& table = report.table(
       errorTable("figure8_radius", "Figure 8: error over the radius factor", {"factor", "factor"}));
   Progress progress{scene, "l2 over radius", 0, std::size(kFactors)};
@@ -106,7 +106,7 @@ void overRadius(VslScene& scene, VslReport& report, Context& context) {
                                     scene.settings().lights, kRadiusColumns));
 }
 
-void overClamp(VslScene& scene, VslReport& report, Context& context) {
+void overClamp(VslScene& scene, FigureReport& report, Context& context) {
   BenchTable& table = report.table({"figure8_clamp",
                                     "Error of virtual point lights over their clamp",
                                     {{"scene", "scene"},
@@ -129,7 +129,7 @@ void overClamp(VslScene& scene, VslReport& report, Context& context) {
 
 }  // namespace
 
-void vslCurves(VslScene& scene, VslReport& report, Context& context) {
+void vslCurves(VslScene& scene, FigureReport& report, Context& context) {
   if (!context.cancelled()) overClamp(scene, report, context);
   if (!context.cancelled()) overColumns(scene, report, context);
   if (!context.cancelled()) overRadius(scene, report, context);

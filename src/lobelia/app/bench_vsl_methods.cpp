@@ -74,7 +74,7 @@ Film sum(const Film& a, const Film& b) {
 
 class MethodFigures {
  public:
-  MethodFigures(VslScene& scene, VslReport& report, Context& context)
+  MethodFigures(VslScene& scene, FigureReport& report, Context& context)
       : scene_(scene), report_(report), context_(context) {}
 
   // Figures 1 and 2: numbers and pictures of some methods.
@@ -82,7 +82,7 @@ class MethodFigures {
     const std::string key = fmt::format("figure{}", figure);
     BenchTable& table =
         report_.table({key, fmt::format("Figure {}: {}", figure, title), kColumns, {}, {}});
-    std::vector<VslPicture> line;
+    std::vector<FigurePicture> line;
     if (report_.hasPictures())
       line.push_back({"reference", save(figure, "reference", scene_.referencePicture())});
     for (const VslMethod& method : methods) {
@@ -119,7 +119,7 @@ class MethodFigures {
     const Reference& reference = scene_.reference();
     if (context_.cancelled()) return;
     const Film first = sum(reference.first, direct), second = sum(reference.second, direct);
-    std::vector<VslPicture> line;
+    std::vector<FigurePicture> line;
     std::optional<ToneCurve> curve;
     const auto add = [&](const std::string& key, const std::string& label, const Film& indirect) {
       const Film film = sum(indirect, direct);
@@ -151,7 +151,7 @@ class MethodFigures {
                                         {"absolute", "absolute difference"}},
                                        {},
                                        {}});
-    std::vector<VslPicture> line;
+    std::vector<FigurePicture> line;
     for (const VslMethod& method : methods) {
       const VslOutcome& outcome = scene_.outcome(method);
       if (context_.cancelled()) return;
@@ -173,7 +173,7 @@ class MethodFigures {
     }
     if (report_.hasPictures())
       line.insert(line.begin(),
-                  VslPicture{"reference", save(7, "reference", scene_.referencePicture())});
+                  FigurePicture{"reference", save(7, "reference", scene_.referencePicture())});
     if (table.notes.empty()) {
       table.notes.push_back(fmt::format(
           "Signed differences of luminance: red is too bright, blue too dark, white none; absolute "
@@ -195,13 +195,13 @@ class MethodFigures {
   }
 
   VslScene& scene_;
-  VslReport& report_;
+  FigureReport& report_;
   Context& context_;
 };
 
 }  // namespace
 
-void vslMethodFigures(VslScene& scene, VslReport& report, Context& context) {
+void vslMethodFigures(VslScene& scene, FigureReport& report, Context& context) {
   MethodFigures figures(scene, report, context);
   const VslSettings& settings = scene.settings();
   const auto three = [&] {

@@ -1,0 +1,151 @@
+// Figure 9 [P000]: how time and rays of gathering grow with lights and with pixels, at every
+// strategy's defaults, with the error beside; and brute force, extrapolated from the pixels
+// compared.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lobelia/app/bench_plot.h"
+#include "lobelia/app/bench_sglc.h"
+
+namespace lobelia::app {
+namespace {
+
+constexpr double kFirstLights = 10'000, kLightFactor = 3.16227766;
+constexpr int kCoarsest = 4;    // pictures begin at this part of the side asked for
+constexpr int kSideFactor = 2;  // between them
+constexpr const char* kNaive = "every light";
+
+struct Grown {  // a method's points
+  std::string label;
+  std::vector<std::pair<double, double>> seconds, rays;
+};
+
+class Growth {
+ public:
+  Growth(std::string key, std::string title, std::string label, FigureReport& report)
+      : key_(std::move(key)), label_(std::move(label)), report_(report) {
+    table().title = std::move(title);
+  }
+
+  void add(SglcScene& scene, double x, Context& context) {
+    for (const SglcMethod& method : sglcMethods()) {
+      const SglcOutcome& o = scene.outcome(method);
+      if (context.cancelled()) return;
+      table().rows.push_back({scene.stem(), method.label, x, o.seconds, o.per(o.rays),
+                              o.visitedOrNone(), o.error.l2, o.error.meanRatio});
+      addPoint(method.label, x, o.seconds, o.rays);
+    }
+    const SglcOutcome& all = scene.reference();
+    if (context.cancelled()) return;
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    table().rows.push_back({scene.stem(), kNaive, x, scene.bruteForceSeconds(), all.per(all.rays),
+                            kNone, kNone, kNone});
+    addPoint(kNaive, x, scene.bruteForceSeconds(),
+             all.per(all.rays) * static_cast<double>(scene.scene().pictureCount()));
+  }
+
+  void finish(const std::string& stem) {
+    BenchTable& exponents = report_.table({"figure9",
+                                           "Figure 9: exponents of growth",
+                                           {{"scene", "scene"},
+                                            {"method", "method"},
+                                            {"over", "over"},
+                                            {"from", "from", "{:.0f}"},
+                                            {"to", "to", "{:.0f}"},
+                                            {"seconds", "of seconds", "{:.2f}"},
+                                            {"rays", "of rays", "{:.2f}"}},
+                                           {},
+                                           {"Least squares in logarithms."}});
+    std::vector<PlotCurve> curves;
+    for (const Grown& grown : grown_) {
+      exponents.rows.push_back({stem, grown.label, label_, grown.seconds.front().first,
+                                grown.seconds.back().first, growthExponent(grown.seconds),
+                                growthExponent(grown.rays)});
+      curves.push_back({grown.label, grown.seconds});
+    }
+    if (!report_.hasPictures()) return;
+    report_.show(key_, stem,
+                 {{"seconds over " + label_,
+                   report_.drawing(key_ + "-" + stem, logLogPlot(label_, "seconds", curves))}});
+  }
+
+ private:
+  BenchTable& table() {
+    return report_.table({key_,
+                          "",
+                          {{"scene", "scene"},
+                           {"method", "method"},
+                           {label_, label_, "{:.0f}"},
+                           {"seconds", "seconds", "{:.2f}"},
+                           {"rays_per_pixel", "rays per pixel", "{:.1f}"},
+                           {"visited_per_pixel", "nodes visited per pixel", "{:.1f}"},
+                           {"l2", "l2", "{:.4f}"},
+                           {"mean_ratio", "mean ratio", "{:.4f}"}},
+                          {},
+                          {"Seconds of whole pictures; of every light extrapolated from the pixels "
+                           "compared."}});
+  }
+  void addPoint(const std::string& label, double x, double seconds, double rays) {
+    auto found = std::find_if(grown_.begin(), grown_.end(),
+                              [&](const Grown& grown) { return grown.label == label; });
+    if (found == grown_.end()) found = grown_.insert(grown_.end(), {label, {}, {}});
+    found->seconds.emplace_back(x, seconds);
+    found->rays.emplace_back(x, rays);
+  }
+
+  std::string key_, label_;
+  FigureReport& report_;
+  std::vector<Grown> grown_;
+};
+
+// From 10^4 (or a tenth of what is asked for) up, by the square root of ten.
+std::vector<uint64_t> lightCounts(uint64_t most) {
+  std::vector<uint64_t> counts;
+  const double last = static_cast<double>(most);
+  for (double n = std::max(1.0, std::min(kFirstLights, last / 10)); n < 0.8 * last;
+       n *= kLightFactor)
+    counts.push_back(static_cast<uint64_t>(std::llround(n)));
+  counts.push_back(most);
+  return counts;
+}
+
+}  // namespace
+
+void sglcGrowth(const BenchOptions& options, SglcScene& scene, FigureReport& report,
+                Context& context) {
+  Growth lights("figure9_lights", "Figure 9: growth with lights", "lights", report);
+  for (const uint64_t count : lightCounts(scene.view().lights)) {
+    if (count == scene.view().lights) {
+      lights.add(scene, static_cast<double>(scene.lights().size()), context);
+    } else {
+      SglcView fewer = scene.view();
+      fewer.lights = count;
+      SglcScene smaller(options, scene.settings(), fewer, context);
+      const double made = static_cast<double>(smaller.lights().size());
+      lights.add(smaller, made, context);
+    }
+    if (context.cancelled()) return;
+  }
+  lights.finish(scene.stem());
+
+  Growth pixels("figure9_pixels", "Figure 9: growth with pixels", "pixels", report);
+  const Camera& camera = scene.scene().camera();
+  for (int divisor = kCoarsest; divisor >= 1; divisor /= kSideFactor) {
+    if (divisor == 1) {
+      pixels.add(scene, static_cast<double>(scene.scene().pictureCount()), context);
+    } else {
+      SglcView coarse = scene.view();
+      coarse.size = fmt::format("{}x{}", std::max(1, camera.width / divisor),
+                                std::max(1, camera.height / divisor));
+      SglcScene smaller(options, scene.settings(), coarse, context);
+      pixels.add(smaller, static_cast<double>(smaller.scene().pictureCount()), context);
+    }
+    if (context.cancelled()) return;
+  }
+  pixels.finish(scene.stem());
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,120 @@
+// The strategies of `lobelia methods`, so that new ones take part by themselves, and what sets the
+// quality of each.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lobelia/app/bench_sglc.h"
+#include "lobelia/app/methods.h"
+#include "lobelia/gather/gather_cuts.h"
+#include "lobelia/gather/gather_pairs.h"
+
+namespace lobelia::app {
+namespace {
+
+constexpr const char* kPaper = "sglc-paper";
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+void setCutSize(RenderOptions& o, double v) { o.cutSize = static_cast<size_t>(v); }
+void setThreshold(RenderOptions& o, double v) { o.threshold = static_cast<float>(v); }
+void setColumns(RenderOptions& o, double v) { o.columns = static_cast<size_t>(v); }
+
+// By the beginning of a method's key. Strategies that are not here have one point in figure 8,
+// that of their defaults.
+const std::vector<std::pair<std::string, SglcQuality>>& qualities() {
+  static const double cut = static_cast<double>(gather::CutSettings().nodes);
+  static const double threshold = static_cast<double>(gather::PairGatherSettings().threshold);
+  static const std::vector<std::pair<std::string, SglcQuality>> table{
+      {kPaper, {"--threshold", threshold, {0.08, 0.04, 0.02, threshold}, setThreshold}},
+      {"sglc", {"--cut-size", cut, {cut / 16, cut / 4, cut, 4 * cut}, setCutSize}},
+      {"mrcs", {"--columns", cut, {cut / 4, cut, 4 * cut}, setColumns}},
+      {"lightslice", {"--columns", kNone, {100, 400, 1600}, setColumns}},
+      {"lightcuts", {"--threshold", kNone, {0.08, 0.04, 0.02, 0.01}, setThreshold}},
+      {"mdlc", {"--threshold", kNone, {0.08, 0.04, 0.02, 0.01}, setThreshold}},
+      {"stochastic", {"--cut-size", kNone, {64, 256, 1024}, setCutSize}},
+  };
+  return table;
+}
+
+SglcMethod byMode(const std::string& mode) {
+  return {"sglc-" + mode, "sglc, " + mode, [mode](RenderOptions& options) {
+            options.gather = "sglc";
+            options.cutMode = mode;
+          }};
+}
+
+// As many lights as a cut of sglc has: by its own error, mrcs takes most lights of small sets.
+SglcMethod byColumns() {
+  const size_t columns = gather::CutSettings().nodes;
+  return {"mrcs", "mrcs", [columns](RenderOptions& options) {
+            options.gather = "mrcs";
+            options.columns = columns;
+          }};
+}
+
+bool gathersGlossyLights(const std::string& strategy) {
+  return std::any_of(lightModels().begin(), lightModels().end(), [&](const LightModel& model) {
+    return model.name == "glossy" &&
+           std::find(model.gathers.begin(), model.gathers.end(), strategy) != model.gathers.end();
+  });
+}
+
+}  // namespace
+
+std::vector<SglcMethod> sglcMethods() {
+  std::vector<SglcMethod> methods;
+  for (const GatherStrategy& strategy : gatherStrategies()) {
+    if (strategy.name == "all" || !gathersGlossyLights(strategy.name)) continue;
+    if (strategy.name == "sglc") {
+      for (const char* mode : {"shared", "unbiased", "paper"}) methods.push_back(byMode(mode));
+    } else if (strategy.name == "mrcs") {
+      methods.push_back(byColumns());
+    } else {
+      methods.push_back({strategy.name, strategy.name,
+                         [name = strategy.name](RenderOptions& o) { o.gather = name; }});
+    }
+  }
+  return methods;
+}
+
+SglcMethod defaultMethod() { return byMode("shared"); }
+SglcMethod approximateMethod() { return byMode("paper"); }
+
+SglcMethod conservative(SglcMethod paper) {
+  paper.key += "-conservative";
+  paper.label += ", E_c";
+  paper.change = [inner = paper.change](RenderOptions& options) {
+    inner(options);
+    options.bound = "conservative";
+  };
+  return paper;
+}
+
+SglcMethod withLayers(SglcMethod method) {
+  method.key += "-layers";
+  method.change = [inner = method.change](RenderOptions& options) {
+    inner(options);
+    options.aovs = "types,cost";
+  };
+  return method;
+}
+
+const SglcQuality* qualityOf(const SglcMethod& method) {
+  for (const auto& [prefix, quality] : qualities())
+    if (method.key.starts_with(prefix)) return &quality;
+  return nullptr;
+}
+
+SglcMethod withQuality(SglcMethod method, const SglcQuality& quality, double value) {
+  if (value == quality.normal) return method;
+  method.key += fmt::format("-{:g}", value);
+  method.change = [inner = method.change, set = quality.set, value](RenderOptions& options) {
+    inner(options);
+    set(options, value);
+  };
+  return method;
+}
+
+}  // namespace lobelia::app
