@@ -41,7 +41,7 @@ struct SglcMethod {
 // The option by which a strategy trades time for error, and values to try.
 struct SglcQuality {
   std::string option;
-  double normal;  // the default; NaN: none of the values
+  double normal;  // the default
   std::vector<double> values;
   void (*set)(RenderOptions&, double);
 };

@@ -103,7 +103,7 @@ std::vector<Series> qualitySeries(SglcScene& scene, BenchTable* table, Context& 
       table->rows.push_back(std::move(row));
     };
     const SglcQuality* quality = qualityOf(method);
-    if (quality == nullptr || std::isnan(quality->normal)) add(method, "defaults", "");
+    if (quality == nullptr) add(method, "defaults", "");
     if (quality != nullptr) {
       for (const double value : quality->values)
         add(withQuality(method, *quality, value), quality->option, value);

@@ -4,36 +4,39 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lobelia/app/bench_sglc.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/gather/gather_cuts.h"
 #include "lobelia/gather/gather_pairs.h"
+#include "lobelia/gather/light_slices.h"
+#include "lobelia/gather/lightcuts.h"
+#include "lobelia/gather/stochastic_lightcuts.h"
 
 namespace lobelia::app {
 namespace {
 
 constexpr const char* kPaper = "sglc-paper";
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void setCutSize(RenderOptions& o, double v) { o.cutSize = static_cast<size_t>(v); }
-void setThreshold(RenderOptions& o, double v) { o.threshold = static_cast<float>(v); }
+void setThreshold(RenderOptions& o, double v) { o.threshold = v; }
 void setColumns(RenderOptions& o, double v) { o.columns = static_cast<size_t>(v); }
 
 // By the beginning of a method's key. Strategies that are not here have one point in figure 8,
 // that of their defaults.
 const std::vector<std::pair<std::string, SglcQuality>>& qualities() {
   static const double cut = static_cast<double>(gather::CutSettings().nodes);
-  static const double threshold = static_cast<double>(gather::PairGatherSettings().threshold);
+  static const double threshold = gather::PairGatherSettings().threshold;
+  static const double lightcuts = gather::LightcutsSettings().threshold;
+  static const double columns = static_cast<double>(gather::SliceSettings().columns);
+  static const double stochastic = static_cast<double>(gather::StochasticSettings().cutSize);
   static const std::vector<std::pair<std::string, SglcQuality>> table{
       {kPaper, {"--threshold", threshold, {0.08, 0.04, 0.02, threshold}, setThreshold}},
       {"sglc", {"--cut-size", cut, {cut / 16, cut / 4, cut, 4 * cut}, setCutSize}},
       {"mrcs", {"--columns", cut, {cut / 4, cut, 4 * cut}, setColumns}},
-      {"lightslice", {"--columns", kNone, {100, 400, 1600}, setColumns}},
-      {"lightcuts", {"--threshold", kNone, {0.08, 0.04, 0.02, 0.01}, setThreshold}},
-      {"mdlc", {"--threshold", kNone, {0.08, 0.04, 0.02, 0.01}, setThreshold}},
-      {"stochastic", {"--cut-size", kNone, {64, 256, 1024}, setCutSize}},
+      {"lightslice", {"--columns", columns, {columns / 4, columns, 4 * columns}, setColumns}},
+      {"lightcuts", {"--threshold", lightcuts, {0.08, 0.04, lightcuts, 0.01}, setThreshold}},
+      {"stochastic", {"--cut-size", stochastic, {64, stochastic, 1024}, setCutSize}},
   };
   return table;
 }
