@@ -189,5 +189,16 @@ TEST_F(MrcsColumns, SameBitsForAnyNumberOfThreads) {
   }
 }
 
+// A weight of 0 would make a light's column, over its weight, no number, and the clustering stop.
+TEST(MrcsUnseen, LeavesNoLightWithoutWeight) {
+  for (const double length : {1e-45, 1e-38, 1e-20, 1.0}) {
+    const double unseen = squaredUnseen(3 * length, 5, static_cast<float>(length));
+    EXPECT_GT(static_cast<float>(std::sqrt(unseen)), 0) << length;
+    EXPECT_LE(std::sqrt(unseen), std::max(length, 1e-30)) << length;
+  }
+  EXPECT_GT(squaredUnseen(0, 0, kNoneSeen), 0) << "all are seen, if only by so little";
+  EXPECT_EQ(squaredUnseen(0, 5, kNoneSeen), 1) << "none is seen: all alike";
+}
+
 }  // namespace
 }  // namespace lobelia

@@ -208,9 +208,12 @@ void LightColumns::load(size_t i, float* out) const {
 }
 
 double squaredUnseen(double hardlySeen, size_t hardlySeenCount, float leastSeen) {
-  if (hardlySeenCount == 0) return 0;
+  // So that no weight, a float, vanishes: a row may see as little of a light as the tail of a
+  // Gaussian.
+  constexpr double kLeast = 1e-30;
+  if (hardlySeenCount == 0) return square(kLeast);
   const double unseen = square(kUnseenShare * hardlySeen / static_cast<double>(hardlySeenCount));
-  if (unseen > 0) return unseen;
+  if (unseen > 0) return std::max(unseen, square(kLeast));
   // No light was seen by one row only: as little as the least of those that were seen, or, where
   // the rows see nothing, all alike.
   return leastSeen < kNoneSeen ? square(double{leastSeen}) : 1.0;
