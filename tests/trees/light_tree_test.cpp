@@ -158,6 +158,20 @@ TEST(LightTree, LightsAlikeMakeNoChain) {
   }
 }
 
+// Places that differ by less than the inverse of a number can say.
+TEST(LightTree, LightsNearlyAtOnePlaceAreSplit) {
+  std::vector<TreeLight> lights(40, randomTreeLights(1, 2)[0]);
+  for (size_t i = 0; i < lights.size(); ++i) {
+    lights[i].p = {1e-39f * static_cast<float>(i % 3), 0, 0};
+    lights[i].n = lights[i].axis = {0, 0, 1};
+  }
+  const LightTree tree = treeOf(lights);
+  std::vector<int> seen(lights.size(), 0);
+  for (const LightNode& node : tree.nodes())
+    if (node.leaf()) ++seen[tree.light(node.link) - 5];
+  for (const int n : seen) EXPECT_EQ(n, 1);
+}
+
 // Neighbours first: a node of few lights is small.
 TEST(LightTree, NodesAreCompact) {
   const LightTree tree = treeOf(randomTreeLights(4096, 5));

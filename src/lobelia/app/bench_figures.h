@@ -2,6 +2,8 @@
 // page that shows these.
 #pragma once
 
+#include <deque>
+#include <iterator>
 #include <set>
 #include <span>
 
@@ -35,7 +37,9 @@ class FigureReport {
   // A line of pictures below a table; those without a file are left out.
   void show(const std::string& tableKey, const std::string& title, std::vector<FigurePicture> line);
   void writePage(const std::string& command) const;  // as far as the study is
-  std::vector<BenchTable> takeTables() { return std::move(tables_); }
+  std::vector<BenchTable> takeTables() {
+    return {std::make_move_iterator(tables_.begin()), std::make_move_iterator(tables_.end())};
+  }
 
  private:
   struct Line {
@@ -43,7 +47,7 @@ class FigureReport {
     std::vector<FigurePicture> pictures;
   };
   std::string folder_, page_, title_;
-  std::vector<BenchTable> tables_;
+  std::deque<BenchTable> tables_;  // references to them are given out
   std::vector<Line> lines_;
 };
 

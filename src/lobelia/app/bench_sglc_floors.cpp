@@ -233,7 +233,8 @@ void sglcFloors(SglcScene& scene, FigureReport& report, Context& context) {
   const Tracer& tracer = scene.scene().tracer();
   const auto [receivers, settings] = scene.receivers();
   if (context.cancelled() || receivers.points.empty() || scene.lights().size() == 0) return;
-  const Samples samples(tracer, scene.lights(), receivers, settings, scene.scene().camera().width);
+  const Samples samples(tracer, scene.lights(), receivers, settings,
+                        scene.scene().camera().cropX1 - scene.scene().camera().cropX0);
   const BareRays bare(tracer.scene(), context);
   const double rays = samples.rays(bare), shadings = samples.shadings(),
                bounds = boundsPerSecond(tracer, scene.lights(), receivers, settings);

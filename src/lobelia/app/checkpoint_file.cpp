@@ -134,9 +134,9 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));
     s.emplace_back("--threshold", fmt::format("{}", thresholdOf(o)));
     s.emplace_back("--bound", boundOf(o));
-    s.emplace_back("--sglc-bounds", o.boundForm);
-    s.emplace_back("--sglc-share", o.shared);
-    s.emplace_back("--sglc-children", o.children);
+    s.emplace_back("--sglc-bounds", boundFormOf(o));
+    s.emplace_back("--sglc-share", shareOf(o));
+    s.emplace_back("--sglc-children", childrenOf(o));
   }
   if (o.lights == "vsl") {
     s.emplace_back("--radius", fmt::format("{}", o.radius));

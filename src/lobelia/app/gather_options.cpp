@@ -106,6 +106,15 @@ double thresholdOf(const RenderOptions& options) {
 std::string boundOf(const RenderOptions& options) {
   return options.bound.empty() ? "approximate" : options.bound;
 }
+std::string boundFormOf(const RenderOptions& options) {
+  return options.boundForm.empty() ? "tight" : options.boundForm;
+}
+std::string shareOf(const RenderOptions& options) {
+  return options.shared.empty() ? "visibility" : options.shared;
+}
+std::string childrenOf(const RenderOptions& options) {
+  return options.children.empty() ? "extent" : options.children;
+}
 
 size_t slicesOf(const RenderOptions& options) {
   return options.slices > 0 ? options.slices : gather::SliceSettings().slices;

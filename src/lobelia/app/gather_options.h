@@ -21,6 +21,9 @@ bool gathersPairs(const RenderOptions& options);
 bool hasThreshold(const RenderOptions& options);
 double thresholdOf(const RenderOptions& options);
 std::string boundOf(const RenderOptions& options);
+std::string boundFormOf(const RenderOptions& options);
+std::string shareOf(const RenderOptions& options);
+std::string childrenOf(const RenderOptions& options);
 size_t slicesOf(const RenderOptions& options);
 size_t sliceColumnsOf(const RenderOptions& options);
 

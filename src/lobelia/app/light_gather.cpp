@@ -34,10 +34,10 @@ gather::PairGatherSettings pairSettings(const RenderOptions& options,
   settings.threshold = thresholdOf(options);
   if (boundOf(options) == "conservative")
     settings.traversal.error = TraversalSettings::Error::conservative;
-  if (options.boundForm == "corrected") settings.traversal.bounds = gather::BoundForm::corrected;
-  if (options.children == "paper")
+  if (boundFormOf(options) == "corrected") settings.traversal.bounds = gather::BoundForm::corrected;
+  if (childrenOf(options) == "paper")
     settings.traversal.children = TraversalSettings::ChildRule::paper;
-  if (options.shared == "radiance") settings.share = gather::Share::radiance;
+  if (shareOf(options) == "radiance") settings.share = gather::Share::radiance;
   return settings;
 }
 

@@ -3,10 +3,13 @@
 #include <map>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/base/random.h"
 #include "lobelia/lobes/spherical_gaussian.h"
 
 namespace lobelia::gather {
 namespace {
+
+constexpr uint64_t kStandsFor = 0x7374616e64;  // of spherical lights that stand for a node
 
 using trees::BoundItem;
 
@@ -179,7 +182,8 @@ void prepareNodes(const VirtualLights& lights, const Scene& scene, const LightFo
                   std::span<const uint32_t> nodes, const std::vector<PreparedSphere>& spheres,
                   LightBlock* block) {
   uint32_t indices[kBlockLights];
-  for (size_t i = 0; i < nodes.size(); ++i) indices[i] = lightOf(tree, nodes[i], nodes[i]);
+  for (size_t i = 0; i < nodes.size(); ++i)
+    indices[i] = lightOf(tree, nodes[i], hashCombine(kStandsFor, nodes[i]));
   prepareChosen(lights, scene, tree.lightClass, {indices, nodes.size()}, block, spheres);
   for (size_t i = 0; i < nodes.size(); ++i) {
     const trees::BoundNode& node = tree.tree.nodes()[nodes[i]];

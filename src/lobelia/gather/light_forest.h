@@ -38,7 +38,8 @@ void prepareNodes(const VirtualLights& lights, const Scene& scene, const LightFo
                   std::span<const uint32_t> nodes, const std::vector<PreparedSphere>& spheres,
                   LightBlock* block);
 
-// A light of a node, chosen by a number: whence its shadow ray comes.
+// A light of a node, chosen by a random number, of which the high bits count: whence its shadow ray
+// comes.
 uint32_t lightOf(const LightForest::Tree& tree, uint32_t node, uint64_t key);
 
 }  // namespace lobelia::gather

@@ -84,16 +84,19 @@ class Splitter {
     const Extents extents = extentsOf(items);
     const int dim = extents.widest();
     const size_t half = items.size() / 2;
-    if (halves || !(extents.hi[dim] > extents.lo[dim])) {
+    const auto cutInHalves = [&] {
       std::nth_element(items.begin(), items.begin() + static_cast<ptrdiff_t>(half), items.end(),
                        [dim](const Item& a, const Item& b) { return a.x[dim] < b.x[dim]; });
       return half;
-    }
-    const Bins bins(items, dim, extents.lo[dim], extents.hi[dim]);
+    };
+    const float perUnit = Bins::kCount / (extents.hi[dim] - extents.lo[dim]);
+    if (halves || !(perUnit < 3.4e38f)) return cutInHalves();
+    const Bins bins(items, dim, extents.lo[dim], perUnit);
     const int border = bins.border();
     const auto middle = std::partition(items.begin(), items.end(),
                                        [&](const Item& item) { return bins.of(item) < border; });
-    return static_cast<size_t>(middle - items.begin());
+    const size_t left = static_cast<size_t>(middle - items.begin());
+    return left == 0 || left == items.size() ? cutInHalves() : left;
   }
 
  private:
@@ -134,8 +137,9 @@ class Splitter {
   // Along one dimension.
   class Bins {
    public:
-    Bins(std::span<const Item> items, int dim, float lo, float hi)
-        : dim_(dim), lo_(lo), perUnit_(kCount / (hi - lo)) {
+    static constexpr int kCount = 32;
+    Bins(std::span<const Item> items, int dim, float lo, float perUnit)
+        : dim_(dim), lo_(lo), perUnit_(perUnit) {
       for (const Item& item : items) {
         Bin& bin = bins_[of(item)];
         const double x = double{item.x[dim]} - double{lo}, w = double{item.weight};
@@ -167,7 +171,6 @@ class Splitter {
     }
 
    private:
-    static constexpr int kCount = 32;
     struct Bin {
       size_t count = 0;
       double weight = 0, first = 0;

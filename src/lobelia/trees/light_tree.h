@@ -4,10 +4,10 @@
 // are, and the sum of their radiant intensity as a cosine lobe and one spherical Gaussian. Lights
 // are told by luminance.
 //
-// Deviations from [P000 section 4.1]: one tree for all classes (a light may have both lobes);
-// Gaussians merge by their moments, which keep energy and mean direction, where the paper's means
-// of sharpness and amplitude lose energy (docs/lobes.md); nodes are split where that leaves the
-// least variance, of places and directions, by power, where the paper sorts by its metric.
+// Deviations from [P000 section 4.1]: a tree takes lights of all classes (a light may have both
+// lobes); Gaussians merge by their moments, which keep energy and mean direction, where the paper's
+// means of sharpness and amplitude lose energy (docs/lobes.md); nodes are split where that leaves
+// the least variance, of places and directions, by power, where the paper sorts by its metric.
 #pragma once
 
 #include <cstdint>
