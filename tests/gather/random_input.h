@@ -42,7 +42,7 @@ inline Scene randomTriangles(int count, uint64_t seed) {
 inline const float* randomTable(Rng* rng) {
   static const std::vector<float> table = [] {
     std::vector<float> values;
-    for (int i = 0; i < 2 * kTransmittanceSize; ++i)
+    for (int i = 0; i <= 2 * kTransmittanceSize; ++i)  // and what follows a table
       values.push_back(0.9f - 0.8f * std::exp(-0.1f * static_cast<float>(i)));
     return values;
   }();
