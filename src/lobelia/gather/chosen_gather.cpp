@@ -1,8 +1,11 @@
 #include "lobelia/gather/chosen_gather.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/base/random.h"
+#include "lobelia/gather/cut_kernels.h"
 #include "lobelia/gather/light_range.h"
 #include "lobelia/gather/tile_parts.h"
 
@@ -37,6 +40,22 @@ void GatherTally::book(Context& context) const {
   if (firstBad) noteNonFinitePixel(*firstBad, context);
 }
 
+void gatherInParallel(size_t count, size_t grain, Context& context,
+                      const std::function<void(size_t, size_t, GatherTally*)>& run) {
+  GatherTally all;
+  std::mutex mutex;
+  size_t done = 0;
+  parallelRanges(count, grain, [&](size_t begin, size_t end) {
+    GatherTally tally;
+    run(begin, end, &tally);
+    const std::lock_guard lock(mutex);
+    all.add(tally);
+    done += end - begin;
+    context.progress("gather", static_cast<double>(done) / static_cast<double>(count));
+  });
+  all.book(context);
+}
+
 ChosenGather::ChosenGather(const Tracer& tracer, const Receivers& receivers,
                            std::span<const uint32_t> order, const VirtualLights& lights,
                            const std::vector<PreparedSphere>& spheres,
@@ -56,7 +75,7 @@ Tile ChosenGather::tileOf(size_t begin, size_t end) const {
 }
 
 void ChosenGather::add(const Tile& tile, std::span<const ChosenLight> chosen,
-                       std::span<Rgb> radiance, GatherTally* tally) {
+                       std::span<Rgb> radiance, GatherTally* tally, uint64_t seed) {
   if (tile.strips.empty()) return;
   TileSums sums;
   sums.strips.resize(tile.strips.size());
@@ -64,12 +83,14 @@ void ChosenGather::add(const Tile& tile, std::span<const ChosenLight> chosen,
   if (parts_ != nullptr) parts.emplace(receivers_, lights_, tile, parts_);
   for (const LightClass lightClass : kLightClasses) {
     if (parts) parts->beginClass(sums);
-    size_t end = 0;
-    while (end < chosen.size() && chosen[end].lightClass == lightClass) ++end;
-    for (size_t i = 0; i < end; i += kBlockLights)
-      addBlock(tile, chosen.subspan(i, std::min(kBlockLights, end - i)), &sums,
-               parts ? &*parts : nullptr, tally);
-    chosen = chosen.subspan(end);
+    while (!chosen.empty() && chosen[0].lightClass == lightClass) {
+      size_t count = 1;
+      while (count < std::min(kBlockLights, chosen.size()) &&
+             chosen[count].lightClass == lightClass && chosen[count].shared == chosen[0].shared)
+        ++count;
+      addBlock(tile, chosen.first(count), seed, &sums, parts ? &*parts : nullptr, tally);
+      chosen = chosen.subspan(count);
+    }
     if (parts) parts->endClass(lightClass, sums);
   }
   if (parts) parts->write();
@@ -78,8 +99,8 @@ void ChosenGather::add(const Tile& tile, std::span<const ChosenLight> chosen,
   write(tile, sums, radiance, tally);
 }
 
-void ChosenGather::addBlock(const Tile& tile, std::span<const ChosenLight> chosen, TileSums* sums,
-                            TileParts* parts, GatherTally* tally) {
+void ChosenGather::addBlock(const Tile& tile, std::span<const ChosenLight> chosen, uint64_t seed,
+                            TileSums* sums, TileParts* parts, GatherTally* tally) {
   const int64_t start = nanosecondsNow();
   uint32_t indices[kBlockLights];
   for (size_t i = 0; i < chosen.size(); ++i) indices[i] = static_cast<uint32_t>(chosen[i].index);
@@ -89,7 +110,10 @@ void ChosenGather::addBlock(const Tile& tile, std::span<const ChosenLight> chose
   allowPairs(tile, block_, lights_, settings_, &pairs_);
   if (parts != nullptr) parts->watchRays(&pairs_);
   const int64_t prepared = nanosecondsNow();
-  tally->rays += keepVisible(tile, block_, tracer_, &pairs_);
+  const uint64_t own =
+      hashCombine(hashCombine(seed, static_cast<uint64_t>(chosen[0].lightClass)), indices[0]);
+  tally->rays += chosen[0].shared ? keepVisibleByOne(tile, block_, tracer_, own, &pairs_)
+                                  : keepVisible(tile, block_, tracer_, &pairs_);
   const int64_t traced = nanosecondsNow();
   shade(tile, block_, settings_.clamp, pairs_, sums);
   if (parts != nullptr) parts->add(block_, settings_.clamp, pairs_);

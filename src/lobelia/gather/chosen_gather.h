@@ -3,6 +3,7 @@
 // tile.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "lobelia/gather/gather.h"
@@ -27,6 +28,10 @@ struct GatherTally {
   void book(Context& context) const;
 };
 
+// Runs over [0, count) in parallel, each with a tally of its own; afterwards all are booked.
+void gatherInParallel(size_t count, size_t grain, Context& context,
+                      const std::function<void(size_t begin, size_t end, GatherTally*)>& run);
+
 class ChosenGather {
  public:
   // receivers: in the tiles' order, order[i] what receiver i is called in radiance; parts: in the
@@ -37,13 +42,14 @@ class ChosenGather {
 
   // A tile of receivers [begin, end), with what spherical lights need.
   Tile tileOf(size_t begin, size_t end) const;
-  // chosen: class by class. Nothing is left out but what a receiver's depth forbids.
+  // chosen: class by class, those that are shared first. Nothing is left out but what a receiver's
+  // depth forbids. seed: of the receivers from which shared rays start.
   void add(const Tile& tile, std::span<const ChosenLight> chosen, std::span<Rgb> radiance,
-           GatherTally* tally);
+           GatherTally* tally, uint64_t seed = 0);
 
  private:
-  void addBlock(const Tile& tile, std::span<const ChosenLight> chosen, TileSums* sums,
-                class TileParts* parts, GatherTally* tally);
+  void addBlock(const Tile& tile, std::span<const ChosenLight> chosen, uint64_t seed,
+                TileSums* sums, class TileParts* parts, GatherTally* tally);
   void write(const Tile& tile, const TileSums& sums, std::span<Rgb> radiance,
              GatherTally* tally) const;
 

@@ -44,7 +44,6 @@ class LightCuts : public PreparedGather {
               Context& context, GatherParts* parts = nullptr) const override;
 
  private:
-  struct Tally;
   class ClusterGather;
 
   const Tracer& tracer_;

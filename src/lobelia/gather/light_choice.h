@@ -11,6 +11,7 @@ struct ChosenLight {
   LightClass lightClass = LightClass::omni;
   size_t index = 0;      // in its class
   Rgb scale = Rgb(1.f);  // of its intensity
+  bool shared = false;   // one shadow ray answers for all receivers of a tile of one strip
 };
 
 // The chosen lights with all that is known about their set; each keeps its class, depth and group.

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 
 #include "lobelia/base/error.h"
@@ -153,28 +151,23 @@ void LightSlices::gather(const Receivers& receivers, uint32_t onlyPixel, std::sp
     ordered = *parts;
     ordered->reset(points);
   }
-  GatherTally all;
-  std::mutex mutex;
-  std::atomic<size_t> done{0};
-  parallelFor(tiles.size(), 1, [&](size_t t) {
-    const TileRange& range = tiles[t];
-    if (context.cancelled()) return;
-    if (!holdsPixel(sliced.receivers, range.begin, range.end, onlyPixel)) return;
+  gatherInParallel(tiles.size(), 1, context, [&](size_t begin, size_t end, GatherTally* tally) {
     ChosenGather gather(tracer_, sliced.receivers, sliced.order, lights_, spheres_,
                         settings_.gather, ordered ? &*ordered : nullptr);
-    const std::vector<ChosenLight>& chosen = chosen_[sliced.slice[range.begin]];
-    GatherTally tally;
-    tally.clusters = range.first ? 1 : 0;
-    tally.lights = range.first ? chosen.size() : 0;
-    tally.clusteredLights = range.first ? numbers_.count() : 0;
-    tally.clusteredReceivers = range.end - range.begin;
-    gather.add(gather.tileOf(range.begin, range.end), chosen, radiance, &tally);
-    const std::lock_guard lock(mutex);
-    all.add(tally);
-    context.progress("gather", static_cast<double>(++done) / static_cast<double>(tiles.size()));
+    for (size_t t = begin; t < end && !context.cancelled(); ++t) {
+      const TileRange& range = tiles[t];
+      if (!holdsPixel(sliced.receivers, range.begin, range.end, onlyPixel)) continue;
+      const std::vector<ChosenLight>& chosen = chosen_[sliced.slice[range.begin]];
+      if (range.first) {
+        ++tally->clusters;
+        tally->lights += chosen.size();
+        tally->clusteredLights += numbers_.count();
+      }
+      tally->clusteredReceivers += range.end - range.begin;
+      gather.add(gather.tileOf(range.begin, range.end), chosen, radiance, tally);
+    }
   });
   if (parts != nullptr) parts->setOrdered(*ordered, sliced.order, points);
-  all.book(context);
 }
 
 }  // namespace lobelia::gather

@@ -1,8 +1,6 @@
 #include "lobelia/gather/lightcuts.h"
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
 #include <numeric>
 #include <optional>
 
@@ -171,32 +169,21 @@ void Lightcuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
     std::iota(order.begin(), order.end(), 0u);
     again.resize(points);
   }
-  GatherTally all;
-  std::mutex mutex;
-  std::atomic<size_t> done{0};
   constexpr size_t kGrain = 32;
-  parallelRanges(points, kGrain, [&](size_t begin, size_t end) {
-    GatherTally tally, partsTally;
-    {
-      PointGather gather(*this, receivers, &tally);
-      ChosenGather partGather(tracer_, receivers, order, lights_, spheres_, settings_.gather,
-                              parts);
-      for (size_t i = begin; i < end && !context.cancelled(); ++i) {
-        if (!holdsPixel(receivers, i, i + 1, onlyPixel)) continue;
-        const uint64_t before = tally.rays;
-        radiance[i] += receivers.points[i].weight * gather.run(i);
-        if (parts == nullptr) continue;
-        partGather.add(gather.tile(), gather.chosen(), again, &partsTally);
-        if (parts->countRays) parts->rays[i] = static_cast<uint32_t>(tally.rays - before);
-      }
-      gather.countPairs();
+  gatherInParallel(points, kGrain, context, [&](size_t begin, size_t end, GatherTally* tally) {
+    GatherTally partsTally;
+    PointGather gather(*this, receivers, tally);
+    ChosenGather partGather(tracer_, receivers, order, lights_, spheres_, settings_.gather, parts);
+    for (size_t i = begin; i < end && !context.cancelled(); ++i) {
+      if (!holdsPixel(receivers, i, i + 1, onlyPixel)) continue;
+      const uint64_t before = tally->rays;
+      radiance[i] += receivers.points[i].weight * gather.run(i);
+      if (parts == nullptr) continue;
+      partGather.add(gather.tile(), gather.chosen(), again, &partsTally);
+      if (parts->countRays) parts->rays[i] = static_cast<uint32_t>(tally->rays - before);
     }
-    const std::lock_guard lock(mutex);
-    all.add(tally);
-    done += end - begin;
-    context.progress("gather", static_cast<double>(done) / static_cast<double>(points));
+    gather.countPairs();
   });
-  all.book(context);
 }
 
 }  // namespace lobelia::gather

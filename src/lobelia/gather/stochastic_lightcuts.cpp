@@ -1,9 +1,7 @@
 #include "lobelia/gather/stochastic_lightcuts.h"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
-#include <mutex>
 #include <numeric>
 
 #include "lobelia/base/parallel.h"
@@ -97,12 +95,8 @@ void StochasticLightcuts::gather(const Receivers& receivers, uint32_t onlyPixel,
   std::vector<uint32_t> order(points);
   std::iota(order.begin(), order.end(), 0u);
   if (parts != nullptr) parts->reset(points);
-  GatherTally all;
-  std::mutex mutex;
-  std::atomic<size_t> done{0};
   constexpr size_t kGrain = 32;
-  parallelRanges(points, kGrain, [&](size_t begin, size_t end) {
-    GatherTally tally;
+  gatherInParallel(points, kGrain, context, [&](size_t begin, size_t end, GatherTally* tally) {
     PointCut cut(*this);
     ChosenGather gather(tracer_, receivers, order, lights_, spheres_, settings_.gather, parts);
     for (size_t i = begin; i < end && !context.cancelled(); ++i) {
@@ -111,19 +105,14 @@ void StochasticLightcuts::gather(const Receivers& receivers, uint32_t onlyPixel,
       const Tile tile = gather.tileOf(i, i + 1);
       if (tile.strips.empty()) continue;
       const std::vector<ChosenLight>& chosen = cut.choose(receivers, i, tile.strips[0]);
-      tally.lights += cut.cutSize();
-      tally.clusteredLights += lightCount_;
-      ++tally.clusters, ++tally.clusteredReceivers;
-      tally.traverseNs += nanosecondsNow() - start;
-      gather.add(tile, chosen, radiance, &tally);
+      tally->lights += cut.cutSize();
+      tally->clusteredLights += lightCount_;
+      ++tally->clusters, ++tally->clusteredReceivers;
+      tally->traverseNs += nanosecondsNow() - start;
+      gather.add(tile, chosen, radiance, tally);
     }
-    tally.evaluations = cut.evaluations();
-    const std::lock_guard lock(mutex);
-    all.add(tally);
-    done += end - begin;
-    context.progress("gather", static_cast<double>(done) / static_cast<double>(points));
+    tally->evaluations = cut.evaluations();
   });
-  all.book(context);
 }
 
 }  // namespace lobelia::gather
