@@ -15,7 +15,8 @@ struct Excess {
   int directions = 0, above = 0, farAbove = 0;  // light beyond the bound, beyond 1.5 times that
 };
 
-// Light of an omni light in random directions, near the receivers' Gaussians half of the time.
+// Light of an omni light of any colour in random directions, near the receivers' Gaussians half of
+// the time.
 Excess excessOf(LobeType type, size_t lobes) {
   const Receivers receivers = randomReceivers(400, {type}, lobes, 8);
   Excess excess;
@@ -32,11 +33,12 @@ Excess excessOf(LobeType type, size_t lobes) {
         const PreparedSphere::Gaussian& g = fitted.gaussians[0];
         w = normalize(g.axis + w * (1.5f / std::sqrt(1 + g.sharpness)));
       }
-      const float value = luminance(evaluate(bsdf, point.wo, w));
+      const Rgb hue = randomColor(&rng), color = hue * hue * hue;
+      const float value = luminance(evaluate(bsdf, point.wo, w) * color);
       if (!(value > 0)) continue;
       trees::BoundItem item;
       item.p = point.p + w;
-      item.cosine = 1;
+      item.cosine = luminance(color);
       const trees::BoundNode light = leafOf(item, 0);
       float bound =
           boundPair({&nodes.cosine, &light}, LightClass::omni, false, BoundForm::tight).upper;

@@ -1,5 +1,6 @@
 #include "lobelia/gather/light_forest.h"
 
+#include <algorithm>
 #include <map>
 
 #include "lobelia/base/parallel.h"
@@ -44,35 +45,17 @@ BoundItem itemOf(const GlossyLight& light) {
   return item;
 }
 BoundItem itemOf(const SphericalLight& light, const PreparedSphere& sphere) {
-  const float power = luminance(light.power);
   BoundItem item;
   item.p = light.p;
   item.radius = light.radius;
   if (!sphere.transmits) item.n = sphere.disc.n;
-  item.cosine = power * sphere.diffuse;
+  item.cosine = luminance(light.power * sphere.diffuseColor);
   item.gaussianCount = sphere.gaussianCount;
   for (int i = 0; i < sphere.gaussianCount; ++i) {
     const PreparedSphere::Gaussian& g = sphere.gaussians[i];
-    item.gaussians[i] = {g.axis, g.sharpness, power * g.amplitude};
+    item.gaussians[i] = {g.axis, g.sharpness, luminance(light.power * g.color)};
   }
   return item;
-}
-
-Rgb powerOf(const VirtualLights& lights, LightClass lightClass, size_t index) {
-  switch (lightClass) {
-    case LightClass::omni:
-      return lights.omni[index].intensity;
-    case LightClass::directional:
-      return lights.directional[index].irradiance;
-    case LightClass::diffuse:
-      return lights.diffuse[index].intensity;
-    case LightClass::spherical:
-      return lights.spherical[index].power;
-    case LightClass::glossy:
-      break;
-  }
-  const GlossyLight& light = lights.glossy[index];
-  return light.intensity * lobes::integral(light.sharpness);
 }
 
 class Planter {
@@ -101,22 +84,11 @@ class Planter {
 
  private:
   BoundItem boundItem(LightClass lightClass, size_t index) const {
-    switch (lightClass) {
-      case LightClass::omni:
-        return itemOf(lights_.omni[index]);
-      case LightClass::directional:
-        return itemOf(lights_.directional[index]);
-      case LightClass::diffuse:
-        return itemOf(lights_.diffuse[index]);
-      case LightClass::glossy:
-        return itemOf(lights_.glossy[index]);
-      case LightClass::spherical:
-        break;
-    }
-    if (!spheres_.empty()) return itemOf(lights_.spherical[index], spheres_[index]);
+    if (lightClass != LightClass::spherical || !spheres_.empty())
+      return boundItemOf(lights_, lightClass, index, spheres_.empty() ? nullptr : &spheres_[index]);
     PreparedSphere own;
     prepareSphere(scene_, lights_.spherical[index], lights_.specularLimit, &own);
-    return itemOf(lights_.spherical[index], own);
+    return boundItemOf(lights_, lightClass, index, &own);
   }
 
   // Children come after their parent in preorder.
@@ -125,7 +97,7 @@ class Planter {
     out->power.resize(nodes.size());
     for (uint32_t i = static_cast<uint32_t>(nodes.size()); i-- > 0;) {
       out->power[i] = nodes[i].leaf()
-                          ? powerOf(lights_, out->lightClass, out->lights[nodes[i].first])
+                          ? lightPower(lights_, out->lightClass, out->lights[nodes[i].first])
                           : out->power[out->tree.left(i)] + out->power[out->tree.right(i)];
     }
   }
@@ -153,6 +125,40 @@ PreparedLight merged(const trees::BoundNode& node, LightClass lightClass, Rgb po
 
 }  // namespace
 
+BoundItem boundItemOf(const VirtualLights& lights, LightClass lightClass, size_t index,
+                      const PreparedSphere* sphere) {
+  switch (lightClass) {
+    case LightClass::omni:
+      return itemOf(lights.omni[index]);
+    case LightClass::directional:
+      return itemOf(lights.directional[index]);
+    case LightClass::diffuse:
+      return itemOf(lights.diffuse[index]);
+    case LightClass::spherical:
+      return itemOf(lights.spherical[index], *sphere);
+    case LightClass::glossy:
+      break;
+  }
+  return itemOf(lights.glossy[index]);
+}
+
+Rgb lightPower(const VirtualLights& lights, LightClass lightClass, size_t index) {
+  switch (lightClass) {
+    case LightClass::omni:
+      return lights.omni[index].intensity;
+    case LightClass::directional:
+      return lights.directional[index].irradiance;
+    case LightClass::diffuse:
+      return lights.diffuse[index].intensity;
+    case LightClass::spherical:
+      return lights.spherical[index].power;
+    case LightClass::glossy:
+      break;
+  }
+  const GlossyLight& light = lights.glossy[index];
+  return light.intensity * lobes::integral(light.sharpness);
+}
+
 LightForest plantLights(const VirtualLights& lights, const GatherSettings& settings,
                         int receiverDepth, const Scene& scene, const Bounds3f& bounds,
                         const std::vector<PreparedSphere>& spheres) {
@@ -174,8 +180,16 @@ LightForest plantLights(const VirtualLights& lights, const GatherSettings& setti
 }
 
 uint32_t lightOf(const LightForest::Tree& tree, uint32_t node, uint64_t key) {
-  const trees::BoundNode& n = tree.tree.nodes()[node];
-  return tree.lights[n.first + static_cast<uint32_t>((key >> 32) * n.count >> 32)];
+  double u = static_cast<double>(key >> 11) * 0x1p-53;
+  while (!tree.tree.nodes()[node].leaf()) {
+    const uint32_t left = tree.tree.left(node), right = tree.tree.right(node);
+    const double a = double{luminance(tree.power[left])}, b = double{luminance(tree.power[right])};
+    const double share = a + b > 0 ? a / (a + b) : 0.5;
+    node = u < share ? left : right;
+    u = u < share ? u / share : (u - share) / (1 - share);
+    u = std::min(u, 0x1.fffffffffffffp-1);
+  }
+  return tree.lights[tree.tree.nodes()[node].first];
 }
 
 void prepareNodes(const VirtualLights& lights, const Scene& scene, const LightForest::Tree& tree,

@@ -2,7 +2,7 @@
 // a node: a light of the class with the power of all.
 //
 // Past the paper, which has no spherical lights: their nodes have bounds of the light that leaves
-// all of their spheres, and one of them stands for all, scaled.
+// all of their spheres, and one of them, drawn by power, stands for all, scaled.
 #pragma once
 
 #include "lobelia/gather/light_choice.h"
@@ -26,6 +26,12 @@ struct LightForest {
   std::vector<Tree> trees;  // none is empty
 };
 
+// A light as trees of bounds have it: luminances. sphere: of spherical lights.
+trees::BoundItem boundItemOf(const VirtualLights& lights, LightClass lightClass, size_t index,
+                             const PreparedSphere* sphere);
+// Of a light, as LightForest::Tree::power counts it.
+Rgb lightPower(const VirtualLights& lights, LightClass lightClass, size_t index);
+
 // Lights that receivers of this depth gather. bounds: of the scene. spheres: prepareSpheres(). The
 // same for any number of threads.
 LightForest plantLights(const VirtualLights& lights, const GatherSettings& settings,
@@ -38,8 +44,8 @@ void prepareNodes(const VirtualLights& lights, const Scene& scene, const LightFo
                   std::span<const uint32_t> nodes, const std::vector<PreparedSphere>& spheres,
                   LightBlock* block);
 
-// A light of a node, chosen by a random number, of which the high bits count: whence its shadow ray
-// comes.
+// A light of a node, drawn by its share of the node's power (luminances) with a random number:
+// whence its shadow ray comes.
 uint32_t lightOf(const LightForest::Tree& tree, uint32_t node, uint64_t key);
 
 }  // namespace lobelia::gather

@@ -20,11 +20,17 @@ struct NodePair {
   const trees::BoundNode* lights;
 };
 
-// Radiance times what lights and receivers are counted in (luminances), without visibility.
+// Luminances of radiance (trees/bound_node.h), without visibility.
 struct PairBounds {
   float value = 0;  // between the representatives
   float upper = 0, lower = 0;
 };
+
+// Is a node's light, under a clamp (GatherSettings::clamp), at most that times the sum of its
+// intensities (cosine + peak)? Those of spherical lights, powers over areas, nodes do not have.
+inline bool clampBounds(LightClass lightClass) {
+  return lightClass != LightClass::directional && lightClass != LightClass::spherical;
+}
 
 // Lights of one class; receivers with Gaussians (glossy) or cosine lobes. bounds: one per pair.
 void boundPairs(std::span<const NodePair> pairs, LightClass lightClass, bool glossyReceivers,

@@ -21,21 +21,49 @@ Vec3f litSide(const ReceiverPoint& point, const Lobe& lobe) {
   return behind ? -point.frame.n : point.frame.n;
 }
 
-// receivers: with one lobe each.
+// receivers: with one lobe each, whose Gaussians are of one colour.
 BoundItem itemOf(const Receivers& receivers, size_t i) {
   const ReceiverPoint& point = receivers.points[i];
-  const float weight = luminance(point.weight);
   const SamplingLobes lobes = samplingLobes(receiverBsdf(receivers, point), point.wo);
+  const Rgb color =
+      point.weight * (lobes.gaussianCount > 0 ? lobes.gaussians[0].color : lobes.diffuseColor);
+  const float most = maxComponent(color);
   BoundItem item;
   item.p = point.p;
   item.n = litSide(point, receivers.lobes[point.firstLobe]);
-  item.cosine = weight * lobes.diffuse;
+  if (most > 0) item.mean = luminance(color) / most, item.least = minComponent(color) / most;
+  item.cosine = maxComponent(point.weight * lobes.diffuseColor);
   item.gaussianCount = lobes.gaussianCount;
   for (int g = 0; g < lobes.gaussianCount; ++g) {
     const PreparedSphere::Gaussian& from = lobes.gaussians[g];
-    item.gaussians[g] = {from.axis, from.sharpness, weight * from.amplitude};
+    item.gaussians[g] = {from.axis, from.sharpness, maxComponent(point.weight * from.color)};
   }
   return item;
+}
+
+ClampedLight clampedOf(const Receivers& receivers, size_t i) {
+  const ReceiverPoint& point = receivers.points[i];
+  const SamplingLobes lobes = samplingLobes(receiverBsdf(receivers, point), point.wo);
+  const Rgb lobe = lobes.gaussianCount > 0 ? lobes.gaussians[0].color : lobes.diffuseColor;
+  const Rgb light = maxComponent(lobe) > 0 ? point.weight * lobe / maxComponent(lobe) : Rgb{};
+  return {maxComponent(point.weight), luminance(light), minComponent(light)};
+}
+
+// Children come after their parent in preorder.
+void addClamped(const Receivers& receivers, ReceiverForest::Tree* out) {
+  const auto nodes = out->tree.nodes();
+  out->clamped.resize(nodes.size());
+  for (uint32_t i = static_cast<uint32_t>(nodes.size()); i-- > 0;) {
+    if (nodes[i].leaf()) {
+      out->clamped[i] = clampedOf(receivers, nodes[i].first);
+      continue;
+    }
+    const uint32_t right = out->tree.right(i);
+    const ClampedLight &a = out->clamped[out->tree.left(i)], &b = out->clamped[right];
+    const float share = static_cast<float>(nodes[right].count) / static_cast<float>(nodes[i].count);
+    out->clamped[i] = {std::max(a.most, b.most), a.mean + share * (b.mean - a.mean),
+                       std::min(a.least, b.least)};
+  }
 }
 
 void addTiles(const BoundTree& tree, uint32_t node, std::vector<uint32_t>* tiles) {
@@ -77,6 +105,7 @@ void plant(const Receivers& receivers, const std::vector<PointLobe>& chosen, flo
     if (whole && point.lobeCount > 1)
       append(receivers, at.point, point.firstLobe, point.lobeCount, &out->whole);
   }
+  if (whole) addClamped(out->receivers, out);
   addTiles(out->tree, 0, &out->tiles);
 }
 

@@ -14,6 +14,14 @@
 
 namespace lobelia::gather {
 
+// What receivers send of a light of unit intensity where the clamp is 1 and their lobes reach it:
+// weights times colours of lobes whose largest component is 1.
+struct ClampedLight {
+  float most = 0;   // largest component, of any receiver
+  float mean = 0;   // luminance, of their mean
+  float least = 0;  // least component, of any
+};
+
 struct ReceiverForest {
   struct Tree {
     bool glossy = false;           // Gaussians, not cosine lobes
@@ -23,8 +31,9 @@ struct ReceiverForest {
     // Where wanted: the same with all of their lobes, of the same kinds for all of them; empty when
     // they have no others.
     Receivers whole;
-    // Bounds of a receiver's lobe times the luminance of its weight.
+    // Bounds of a receiver's lobe times its weight, channel by channel (BoundItem::mean).
     trees::BoundTree tree;
+    std::vector<ClampedLight> clamped;  // by node, where wholes are wanted
     // The largest nodes with at most kMaxTilePoints receivers; they share nothing.
     std::vector<uint32_t> tiles;
   };
@@ -32,7 +41,7 @@ struct ReceiverForest {
 };
 
 // scale: size of the scene. byDepth: receivers of different depths in different trees. wholes: fill
-// Tree::whole? The same for any number of threads.
+// Tree::whole and Tree::clamped? The same for any number of threads.
 ReceiverForest plantReceivers(const Receivers& receivers, float scale, bool byDepth, bool wholes);
 
 }  // namespace lobelia::gather

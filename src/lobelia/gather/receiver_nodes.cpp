@@ -31,23 +31,33 @@ class Envelope {
   Envelope(const Bsdf& bsdf, Vec3f wo, bool above, bool below)
       : bsdf_(bsdf), wo_(wo), n_(bsdf.frames[0].n), above_(above), below_(below) {
     const SamplingLobes lobes = samplingLobes(bsdf, wo);
-    diffuse = lobes.diffuse;
+    diffuse = maxComponent(lobes.diffuseColor);
+    diffuseMean = meanShare(lobes.diffuseColor);
     count = lobes.gaussianCount;
+    Rgb glossy{};
     const float broad = broadening(bsdf, wo);
     for (int i = 0; i < count; ++i) {
       gaussians[i] = lobes.gaussians[i];
+      glossy += gaussians[i].color;
+      gaussians[i].amplitude = maxComponent(gaussians[i].color);
       gaussians[i].sharpness *= broad;
       diffuse += kTailShare * gaussians[i].amplitude;
     }
+    glossyMean = meanShare(glossy);
     for (int i = 0; i < count; ++i) raiseAround(gaussians[i].axis, gaussians[i].sharpness);
     raiseOverHemispheres();
   }
 
-  float diffuse = 0;
+  // Largest components of the colour; the luminance's share of them (BoundItem::mean).
+  float diffuse = 0, diffuseMean = 1, glossyMean = 1;
   int count = 0;
   PreparedSphere::Gaussian gaussians[kSphereGaussians];
 
  private:
+  static float meanShare(Rgb color) {
+    return maxComponent(color) > 0 ? luminance(color) / maxComponent(color) : 1.f;
+  }
+
   // Lobes' peaks, which may lie beside the axis.
   void raiseAround(Vec3f axis, float sharpness) {
     raise(axis);
@@ -78,7 +88,7 @@ class Envelope {
     // A cosine lobe on both sides counts as one of no cosine (receiverNodes()).
     const float cosine = above_ && below_ ? 1.f : dot(n_, wi) * (above_ ? 1.f : -1.f);
     if (!(cosine > 0)) return;
-    const float value = luminance(evaluate(bsdf_, wo_, wi)), even = diffuse * cosine;
+    const float value = maxComponent(evaluate(bsdf_, wo_, wi)), even = diffuse * cosine;
     float glossy = 0;
     bool far = true;
     for (int i = 0; i < count; ++i) {
@@ -110,11 +120,13 @@ ReceiverNodes receiverNodes(const Receivers& receivers, size_t point, const Poin
   item.p = at.p;
   if (above != below) item.n = above ? at.frame.n : -at.frame.n;
   item.cosine = envelope.diffuse;
+  item.mean = envelope.diffuseMean;
   ReceiverNodes nodes;
   nodes.cosine = trees::leafOf(item, 0);
   nodes.glossy = envelope.count > 0;
   if (!nodes.glossy) return nodes;
   item.cosine = 0;
+  item.mean = envelope.glossyMean;
   item.gaussianCount = envelope.count;
   for (int i = 0; i < envelope.count; ++i) {
     const PreparedSphere::Gaussian& g = envelope.gaussians[i];
@@ -130,10 +142,7 @@ void NodeBounder::bound(const ReceiverNodes& receiver, uint32_t tree,
   evaluations_ += nodes.size();
   boundNodes(receiver.cosine, receiver.glossy ? &receiver.gaussians : nullptr, lights.tree.nodes(),
              nodes, lights.lightClass, bounds);
-  const bool clamped = lights.lightClass == LightClass::omni ||
-                       lights.lightClass == LightClass::diffuse ||
-                       lights.lightClass == LightClass::glossy;
-  if (!(clamp_ > 0) || !clamped) return;
+  if (!(clamp_ > 0) || !clampBounds(lights.lightClass)) return;
   for (size_t i = 0; i < nodes.size(); ++i) {
     const trees::BoundNode& node = lights.tree.nodes()[nodes[i]];
     // Of glossy lights, whose cosine lobe is 0, the sum of intensities.

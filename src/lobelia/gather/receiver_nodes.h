@@ -4,7 +4,8 @@
 // bounds Phong and Ward lobes by their formulas; ours are of many kinds, so that the receiver's
 // fitted Gaussians (samplingLobes()) are made as broad as its lobes are in their broader direction
 // and scaled, with the cosine lobe, until they are above the lobes at a sample of directions: above
-// them everywhere but for narrow peaks between the samples.
+// them everywhere but for narrow peaks between the samples. They bound the largest component of the
+// lobes' colour, so that bounds hold for lights of any colour (trees/bound_node.h).
 #pragma once
 
 #include "lobelia/gather/light_forest.h"

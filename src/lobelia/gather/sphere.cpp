@@ -65,10 +65,12 @@ SamplingLobes samplingLobes(const Bsdf& bsdf, Vec3f w) {
     const Lobe& lobe = bsdf.lobes[l];
     const ShadingFrame& frame = bsdf.frameOf(lobe);
     Vec3f local = frame.toLocal(w);
-    const float energy = luminance(lobeAlbedo(lobe, local.z));
+    const Rgb albedo = lobeAlbedo(lobe, local.z);
+    const float energy = luminance(albedo);
     if (lobe.sharp || isDelta(lobe) || !(energy > 0) || !std::isfinite(energy)) continue;
     if (isDiffuse(lobe.type) || lobe.type == LobeType::diffuseTransmission) {
       result.diffuse += energy * kInvPi;
+      result.diffuseColor += albedo * kInvPi;
       continue;
     }
     const bool behind = local.z < 0;
@@ -79,8 +81,9 @@ SamplingLobes samplingLobes(const Bsdf& bsdf, Vec3f w) {
       const Vec3f axis = behind ? flipZ(parts[i].axis) : parts[i].axis;
       const float sharpness = std::clamp(parts[i].sharpness, 1e-3f, 1e7f);
       order[count] = {-energy * parts[i].share, count};
-      all[count++] = {frame.toWorld(axis), sharpness,
-                      energy * parts[i].share / lobes::integral(sharpness)};
+      const float integral = lobes::integral(sharpness);
+      all[count++] = {frame.toWorld(axis), sharpness, energy * parts[i].share / integral,
+                      albedo * (parts[i].share / integral)};
       result.sharpest = std::max(result.sharpest, sharpness);
     }
     if (drawnByHalfVector(lobe) && energy > strongest) {
@@ -109,6 +112,7 @@ void prepareSphere(const Scene& scene, const SphericalLight& light, float specul
   addLobes(bsdf, wi, sphere, indices);
   const SamplingLobes sampling = samplingLobes(bsdf, wi);
   sphere->diffuse = sampling.diffuse;
+  sphere->diffuseColor = sampling.diffuseColor;
   sphere->gaussianCount = sampling.gaussianCount;
   std::copy_n(sampling.gaussians, sampling.gaussianCount, sphere->gaussians);
   sphere->sharpest = sampling.sharpest;

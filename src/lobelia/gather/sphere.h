@@ -29,13 +29,15 @@ struct PreparedSphere {
   int lobeCount = 0;
   LightLobe lobes[kMaxLobes];
 
-  // Luminances: of the cosine-like rest (radiance per power and area), and of the largest
-  // Gaussians.
+  // Of the cosine-like rest (radiance per power and area), and of the largest Gaussians: luminances
+  // (diffuse, amplitude) and their colours.
   struct Gaussian {
     Vec3f axis;
     float sharpness, amplitude;
+    Rgb color{};
   };
   float diffuse = 0;
+  Rgb diffuseColor{};
   int gaussianCount = 0;
   Gaussian gaussians[kSphereGaussians];
   float sharpest = 0;  // of the lobes, across their thinner axis
@@ -54,7 +56,8 @@ Rgb leavingRadiance(const PreparedSphere& sphere, Vec3f w);
 
 // What directions are drawn by, of a BSDF for light from (or towards) w.
 struct SamplingLobes {
-  float diffuse = 0;  // luminance of the cosine-like part, per steradian
+  float diffuse = 0;   // luminance of the cosine-like part, per steradian
+  Rgb diffuseColor{};  // the part itself
   int gaussianCount = 0;
   PreparedSphere::Gaussian gaussians[kSphereGaussians];  // strongest first
   float sharpest = 0;                                    // see PreparedSphere

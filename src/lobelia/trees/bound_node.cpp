@@ -79,7 +79,9 @@ BoundNode leafOf(const BoundItem& item, uint32_t place) {
   const Vec3f n = sided ? item.n : Vec3f{0, 0, 1};
   setCone({n, sided ? 0 : kPi}, &node.normalAxis, &node.normalAngle);
   node.n = node.normalAxis;
-  node.cosine = node.leastPeak = node.amount = item.cosine;
+  node.cosine = item.cosine;
+  node.leastPeak = item.cosine * item.least;
+  node.amount = item.cosine * item.mean;
   node.first = place;
   node.count = 1;
   if (item.gaussianCount == 0) return node;
@@ -105,8 +107,9 @@ BoundNode leafOf(const BoundItem& item, uint32_t place) {
     node.axis = encodeOctahedral(lobe.axis);
     node.sharpness = lobe.sharpness;
   }
-  node.leastPeak = node.peak;
-  node.leastEnergy = node.amount = node.energy;
+  node.leastPeak = node.peak * item.least;
+  node.leastEnergy = node.energy * item.least;
+  node.amount = node.energy * item.mean;
   return node;
 }
 

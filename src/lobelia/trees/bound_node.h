@@ -9,7 +9,9 @@
 // energy and the mean direction of all (moments, docs/lobes.md), where the printed mean of
 // amplitudes loses energy and the mean of axes grows too sharp; its place is the mean by power (of
 // receivers: by number). A merged normal is the mean of the children's. Several Gaussians of one
-// item share a leaf.
+// item share a leaf. Amounts are luminances on the lights' side and largest components of the
+// colour on the receivers', whose product is never below the luminance of the colours' product; the
+// paper does not say how colours count.
 #pragma once
 
 #include <cstdint>
@@ -29,6 +31,10 @@ struct BoundItem {
     Vec3f axis;
     float sharpness = 0, amplitude = 0;
   } gaussians[2];
+  // Shares of all amplitudes. A light of one colour on a receiver of another has a luminance
+  // between the light's times the receiver's least and largest component: a receiver's amplitudes
+  // are its largest components, and these its luminance and its least component over them.
+  float mean = 1, least = 1;
 };
 
 struct BoundNode {
@@ -40,12 +46,13 @@ struct BoundNode {
   uint16_t normalAngle = 0, lobeAngle = 0;
   float leastSharpness = 0, mostSharpness = 0;
   // Of lights the sums, of receivers the largest: amplitudes of cosine lobes and of Gaussians, and
-  // the Gaussians' integrals over the sphere.
+  // the Gaussians' integrals over the sphere. Upper bounds.
   float cosine = 0, peak = 0, energy = 0;
-  // Of lights the same sums, of receivers the smallest: cosine or peak (of what they have), energy.
+  // Of lights the same sums, of receivers the smallest, times their BoundItem::least: cosine or
+  // peak (of what they have), energy. Lower bounds.
   float leastPeak = 0, leastEnergy = 0;
   // Representative: normal and axis (octahedral), sharpness, amplitude of the cosine or integral of
-  // the Gaussian.
+  // the Gaussian, times BoundItem::mean.
   uint32_t n = 0, axis = 0;
   float sharpness = 0, amount = 0;
   uint32_t first = 0, count = 0;  // its items are [first, first + count) of the leaves' order
