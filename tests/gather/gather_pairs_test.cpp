@@ -1,6 +1,8 @@
 // Bi-tree gathering against the sum over all lights.
 #include "lobelia/gather/gather_pairs.h"
 
+#include <limits>
+
 #include "gather/random_input.h"
 #include "gather/spherical_setup.h"
 #include "lobelia/base/parallel.h"
@@ -251,6 +253,78 @@ TEST_F(GatherPairs, PartsAddUp) {
   }
   EXPECT_GT(omni.x, 0);
   EXPECT_EQ(2 * rays, count("shadow_rays"));
+}
+
+// Few receivers of a node face the lights: whatever is drawn, they are lit.
+TEST_F(GatherPairs, HorizonsAreNotDark) {
+  Rng rng(8);
+  for (ReceiverPoint& point : receivers_.points) {
+    const Vec3f n = point.pixel % 20 == 0 ? Vec3f{0, 0, 1} : Vec3f{0, 0, -1};
+    point.p = randomPoint(&rng, 0.01f);
+    point.frame = frameFromNormal(n);
+    point.ng = n, point.wo = n;
+    point.weight = Rgb(1.f);
+    receivers_.lobes[point.firstLobe] = Lobe{};
+    receivers_.lobes[point.firstLobe].weight = Rgb(0.5f);
+  }
+  VirtualLights above;
+  for (int i = 0; i < 200; ++i)
+    above.diffuse.push_back({Vec3f{0, 0, 5} + randomPoint(&rng, 0.05f), randomColor(&rng),
+                             encodeOctahedral({0, 0, -1}), 0});
+  above.diffuseDepthEnds = {200};
+  const Scene empty;
+  const Tracer tracer(empty, context_);
+  const std::vector<Rgb> exact = all(tracer, above);
+  settings_.threshold = 1;
+  for (settings_.seed = 0; settings_.seed < 10; ++settings_.seed)
+    EXPECT_NEAR(sum(pairs(tracer, above)), sum(exact), 0.02 * sum(exact)) << settings_.seed;
+}
+
+// A shadow ray goes to the light that matters.
+TEST_F(GatherPairs, RaysGoToLightsByTheirPower) {
+  for (ReceiverPoint& point : receivers_.points) {
+    point.p = {0.001f * static_cast<float>(point.pixel), 0, 0};
+    point.frame = frameFromNormal({0, 0, 1});
+    point.ng = {0, 0, 1}, point.wo = {0, 0, 1};
+    receivers_.lobes[point.firstLobe] = Lobe{};
+    receivers_.lobes[point.firstLobe].weight = Rgb(0.5f);
+  }
+  // Many dim lights behind a wall, a bright one beside it.
+  Scene wall = randomTriangles(1, 1);
+  wall.meshes[0].positions = {{-1, -3, 2}, {1.5f, -3, 2}, {1.5f, 3, 2}, {-1, 3, 2}};
+  wall.meshes[0].triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Tracer tracer(wall, context_);
+  VirtualLights lights;
+  for (int i = 0; i < 1000; ++i) {
+    const bool bright = i == 700;
+    lights.diffuse.push_back({{bright ? 7.f : 2.f + 1e-3f * static_cast<float>(i), 0, 4},
+                              Rgb(bright ? 100.f : 1e-4f),
+                              encodeOctahedral({0, 0, -1}),
+                              0});
+  }
+  lights.diffuseDepthEnds = {1000};
+  const std::vector<Rgb> exact = all(tracer, lights);
+  settings_.threshold = 1000;
+  EXPECT_NEAR(sum(pairs(tracer, lights)), sum(exact), 0.02 * sum(exact));
+}
+
+TEST_F(GatherPairs, TheFirstBadPixelIsKnown) {
+  settings_.threshold = 0;
+  std::vector<uint32_t> lit;
+  const std::vector<Rgb> exact = all(tracer_, lights_);
+  for (uint32_t i = 0; i < exact.size(); ++i)
+    if (luminance(exact[i]) > 0) lit.push_back(i);
+  ASSERT_GT(lit.size(), 60u);
+  for (const uint32_t pixel : {lit[50], lit[30]})
+    receivers_.lobes[receivers_.points[pixel].firstLobe].weight =
+        Rgb(std::numeric_limits<float>::quiet_NaN());
+  for (const Share share : {Share::visibility, Share::radiance}) {
+    settings_.share = share;
+    context_.statistics.setValue("first_nonfinite_pixel", 0);
+    pairs(tracer_, lights_);
+    EXPECT_GT(count("nonfinite"), 0u);
+    EXPECT_EQ(context_.statistics.value("first_nonfinite_pixel"), 1.0 + lit[30]);
+  }
 }
 
 TEST_F(GatherPairs, NothingWhenCancelled) {

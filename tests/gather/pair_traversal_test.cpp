@@ -94,6 +94,29 @@ TEST_P(Traversal, ErrorsStayBelowTheThreshold) {
   EXPECT_GT(merged, 100u);
 }
 
+// Pairs whose places meet have no bound but the clamp's.
+TEST_P(Traversal, ClampsLimitErrors) {
+  settings_.error = TraversalSettings::Error::conservative;
+  const std::vector<ClampedLight> receivers(receivers_.nodes().size(), {0.5f, 0.4f, 0.1f});
+  const float clamp = 2;
+  const auto nodes = [&](float threshold, const ErrorClamp& errorClamp) {
+    PairTraversal traversal(receivers_, false, lights_, settings_, errorClamp);
+    size_t count = 0;
+    traversal.run(0, std::vector<float>(receivers_.nodes().size(), threshold),
+                  [&](std::vector<TreePair>* pairs) {
+                    count += pairs->size();
+                    return true;
+                  });
+    return count;
+  };
+  const float most = clamp * 0.5f * lights_.tree.nodes()[0].cosine;
+  EXPECT_EQ(nodes(1.001f * most, {clamp, receivers}), 16u) << "nodes of the fourth level";
+  EXPECT_GT(nodes(1.001f * most, {}), 100u);
+  EXPECT_GT(nodes(0.01f * most, {clamp, receivers}), 16u);
+  lights_.lightClass = LightClass::spherical;
+  EXPECT_GT(nodes(1.001f * most, {clamp, receivers}), 100u) << "powers are not intensities";
+}
+
 TEST_P(Traversal, StopsWhenToldTo) {
   lights_.tree = randomTree(1000, BoundTree::Side::lights, {0.5f, 0, 0}, 3);
   PairTraversal traversal(receivers_, false, lights_, settings_);

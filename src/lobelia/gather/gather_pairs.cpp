@@ -185,19 +185,20 @@ class LightPairs::Run {
     const int64_t start = nanosecondsNow();
     PairShading shading(scene_, *job->receivers, job->node);
     PairTraversal traversal(job->receivers->tree, job->receivers->glossy, *job->lights,
-                            traversalOf(job->lights->lightClass));
-    job->tally.bounded +=
-        traversal.run(job->node, thresholdsOf(*job, floor), [&](std::vector<TreePair>* pairs) {
-          if (context_.cancelled()) return false;
-          for (const TreePair& pair : *pairs) {
-            const uint64_t receivers = job->receivers->tree.nodes()[pair.receivers].count;
-            ++job->tally.nodes;
-            job->tally.nodeReceivers += receivers;
-            job->tally.covered += receivers * job->lights->tree.nodes()[pair.lights].count;
-          }
-          shading.add(*job->lights, pairs);
-          return true;
-        });
+                            traversalOf(job->lights->lightClass),
+                            {settings_.gather.clamp, job->receivers->clamped});
+    const std::vector<float> thresholds = thresholdsOf(*job, floor);
+    job->tally.bounded += traversal.run(job->node, thresholds, [&](std::vector<TreePair>* pairs) {
+      if (context_.cancelled()) return false;
+      for (const TreePair& pair : *pairs) {
+        const uint64_t receivers = job->receivers->tree.nodes()[pair.receivers].count;
+        ++job->tally.nodes;
+        job->tally.nodeReceivers += receivers;
+        job->tally.covered += receivers * job->lights->tree.nodes()[pair.lights].count;
+      }
+      shading.add(*job->lights, pairs, thresholds);
+      return true;
+    });
     job->tally.traverseNs += nanosecondsNow() - start - shading.visibilityNs - shading.shadeNs;
     job->take(shading);
   }

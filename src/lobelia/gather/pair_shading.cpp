@@ -8,9 +8,9 @@
 namespace lobelia::gather {
 namespace {
 
-// Lights and receivers of a pair that are tried until two face each other. Where none do, the pair
-// is taken as dark.
+// Lights and receivers of a pair that are tried until two face each other.
 constexpr int kAttempts = 4;
+constexpr uint64_t kLightStream = 0x6c69676874;
 
 // As the packets of keepVisible() (visibility-inl.h) have it.
 Vec3f rayOrigin(const PointStrip& strip, int lane, Vec3f toLight) {
@@ -28,6 +28,7 @@ PairShading::PairShading(const PairScene& scene, const ReceiverForest::Tree& rec
                          uint32_t node)
     : scene_(scene),
       receivers_(receivers),
+      node_(node),
       first_(receivers.tree.nodes()[node].first),
       count_(receivers.tree.nodes()[node].count),
       tile_(makeTile(receivers.receivers, first_, first_ + count_)) {
@@ -46,7 +47,37 @@ void PairShading::clear() {
   copied_.assign(scene_.share == Share::radiance ? count_ : 0, Vec3d{});
 }
 
-void PairShading::add(const LightForest::Tree& lights, std::vector<TreePair>* pairs) {
+void PairShading::add(const LightForest::Tree& lights, std::vector<TreePair>* pairs,
+                      std::span<const float> thresholds) {
+  while (!pairs->empty()) {
+    addOnce(lights, pairs);
+    pairs->clear();
+    if (!thresholds.empty()) splitUnanswered(lights, thresholds, pairs);
+  }
+}
+
+void PairShading::splitUnanswered(const LightForest::Tree& lights,
+                                  std::span<const float> thresholds,
+                                  std::vector<TreePair>* children) {
+  std::vector<TreePair> split;
+  std::vector<NodePair> nodes;
+  for (const Traced& pair : traced_) {
+    const NodePair both{&receivers_.tree.nodes()[pair.nodes.receivers],
+                        &lights.tree.nodes()[pair.nodes.lights]};
+    if (pair.found || (both.receivers->leaf() && both.lights->leaf())) continue;
+    split.push_back(pair.nodes);
+    nodes.push_back(both);
+  }
+  std::vector<PairBounds> bounds(nodes.size());
+  boundPairs(nodes, lights.lightClass, receivers_.glossy, BoundForm::tight, bounds.data());
+  for (size_t i = 0; i < split.size(); ++i) {
+    if (bounds[i].upper <= thresholds[split[i].receivers - node_]) continue;
+    splitPair(receivers_.tree, lights, split[i],
+              refinesLights(receivers_.tree, receivers_.glossy, lights, split[i]), children);
+  }
+}
+
+void PairShading::addOnce(const LightForest::Tree& lights, std::vector<TreePair>* pairs) {
   std::sort(pairs->begin(), pairs->end(), [](const TreePair& a, const TreePair& b) {
     return a.lights != b.lights ? a.lights < b.lights : a.receivers < b.receivers;
   });
@@ -54,7 +85,7 @@ void PairShading::add(const LightForest::Tree& lights, std::vector<TreePair>* pa
   for (const TreePair& pair : *pairs) {
     const trees::BoundNode& p = receivers_.tree.nodes()[pair.receivers];
     const uint32_t begin = p.first - first_;
-    traced_.push_back({pair, begin, begin + p.count, begin, false});
+    traced_.push_back({pair, begin, begin + p.count, begin, false, false});
   }
   const int64_t start = nanosecondsNow();
   for (size_t i = 0; i < traced_.size(); i += kBlockLights)
@@ -91,7 +122,7 @@ void PairShading::chooseEnds(const LightForest::Tree& lights, std::span<Traced> 
     place[count] = i;
     receiver[count] =
         pair.begin + static_cast<uint32_t>((key & 0xffffffffu) * (pair.end - pair.begin) >> 32);
-    index[count++] = lightOf(lights, pair.nodes.lights, key);
+    index[count++] = lightOf(lights, pair.nodes.lights, hashCombine(key, kLightStream));
   }
   if (count == 0) return;
   prepareChosen(scene_.lights, scene_.tracer.scene(), lights.lightClass, {index, count}, &ends_,
@@ -103,6 +134,7 @@ void PairShading::chooseEnds(const LightForest::Tree& lights, std::span<Traced> 
     const uint32_t i = place[c];
     *waiting &= ~(1u << i);
     pairs[i].from = receiver[c];
+    pairs[i].found = true;
     const PointStrip& strip = tile_.strips[s];
     const bool directional = lights.lightClass == LightClass::directional;
     const Vec3f d = directional ? ends_.lights[c].p : ends_.lights[c].p - strip.p.get(lane);
@@ -213,7 +245,12 @@ void PairShading::computeValues() {
   compute(tile_, whole_.strips.empty() ? scene_.clamp : 0, &values_);
   shaded += values_.pairs;
   nonfinite += values_.nonfinite;
-  if (values_.nonfinite > 0) noteBad(0, 1);
+  if (values_.nonfinite > 0) {  // whose they are, sums know
+    TileSums sums;
+    sums.strips.resize(tile_.strips.size());
+    shade(tile_, block_, whole_.strips.empty() ? scene_.clamp : 0, masks_, &sums);
+    for (size_t s = 0; s < sums.strips.size(); ++s) noteBad(s, sums.strips[s].nonfinite);
+  }
   if (whole_.strips.empty()) return;
   compute(whole_, scene_.clamp, &clamped_);
   compute(whole_, 0, &free_);

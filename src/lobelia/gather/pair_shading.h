@@ -1,8 +1,10 @@
 // Pairs of nodes that a traversal gives out, traced and shaded for the receivers of a tile.
 //
-// One shadow ray answers for a pair, between a light and a receiver of it: their means, which the
-// paper takes, may lie inside of objects. Then every receiver is lit by what stands for the lights,
-// by its own lobe and place (Share::visibility), or all get the light of the one that the ray left
+// One shadow ray answers for a pair, between a receiver and a light of it that face each other,
+// drawn by power: their means, which the paper takes, may lie inside of objects. Where a few draws
+// find none, the pair is dark if all that it could send is below its threshold; else it is split,
+// and its children ask for themselves. Then every receiver is lit by what stands for the lights, by
+// its own lobe and place (Share::visibility), or all get the light of the one that the ray left
 // from (Share::radiance: the paper's). Pairs of a light and a receiver get what brute force gives
 // them, by the same kernels. A clamp works on all lobes of a receiver together: one lobe gets what
 // it leaves of their sum.
@@ -35,8 +37,10 @@ class PairShading {
   // The receivers of a node with at most kMaxTilePoints.
   PairShading(const PairScene& scene, const ReceiverForest::Tree& receivers, uint32_t node);
 
-  // Sorts the pairs.
-  void add(const LightForest::Tree& lights, std::vector<TreePair>* pairs);
+  // Uses the pairs up. thresholds: luminances, of the node and those below it, in preorder; empty:
+  // no pair is split.
+  void add(const LightForest::Tree& lights, std::vector<TreePair>* pairs,
+           std::span<const float> thresholds = {});
   // Of receiver i of the node, its weight included.
   Rgb radiance(uint32_t i) const;
   void clear();
@@ -52,8 +56,11 @@ class PairShading {
     TreePair nodes;
     uint32_t begin = 0, end = 0;
     uint32_t from = 0;
-    bool visible = false;
+    bool found = false, visible = false;  // ends that face each other; that see each other
   };
+  void addOnce(const LightForest::Tree& lights, std::vector<TreePair>* pairs);
+  void splitUnanswered(const LightForest::Tree& lights, std::span<const float> thresholds,
+                       std::vector<TreePair>* children);
   void trace(const LightForest::Tree& lights, std::span<Traced> pairs);
   void chooseEnds(const LightForest::Tree& lights, std::span<Traced> pairs, int attempt,
                   uint32_t* waiting);
@@ -70,7 +77,7 @@ class PairShading {
 
   const PairScene& scene_;
   const ReceiverForest::Tree& receivers_;
-  const uint32_t first_, count_;
+  const uint32_t node_, first_, count_;
   Tile tile_, whole_;  // the second with all lobes, where a clamp needs them
   TileSums sums_;
   std::vector<Vec3d> copied_;  // Share::radiance; weighted

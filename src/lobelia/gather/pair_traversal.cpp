@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lobelia/lobes/spherical_gaussian.h"
+
 namespace lobelia::gather {
 namespace {
 
@@ -69,6 +71,21 @@ void PairTraversal::bound(const std::vector<TreePair>& pairs) {
   bounds_.resize(pairs.size());
   boundPairs(nodes_, lights_.lightClass, glossy_, settings_.bounds, bounds_.data());
   bounded_ += pairs.size();
+  if (clamp_.clamp > 0 && clampBounds(lights_.lightClass)) clampBounded(pairs);
+}
+
+void PairTraversal::clampBounded(const std::vector<TreePair>& pairs) {
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const ClampedLight& at = clamp_.receivers[pairs[i].receivers];
+    const BoundNode& q = lights_.tree.nodes()[pairs[i].lights];
+    const float all = clamp_.clamp * (q.cosine + q.peak);  // one of them is 0
+    // What stands for Gaussians has their energy.
+    const float one = q.energy > 0 ? clamp_.clamp * q.energy / lobes::integral(q.sharpness) : all;
+    PairBounds& b = bounds_[i];
+    b.value = std::min(b.value, at.mean * one);
+    b.upper = std::min(b.upper, at.most * all);
+    b.lower = std::min(b.lower, at.least * all);
+  }
 }
 
 float PairTraversal::errorOf(const PairBounds& b) const {
@@ -76,13 +93,14 @@ float PairTraversal::errorOf(const PairBounds& b) const {
   return std::max(b.value - b.lower, b.upper - b.value);
 }
 
-bool PairTraversal::refinesLights(const TreePair& pair) const {
-  const BoundNode& p = receivers_.nodes()[pair.receivers];
-  const BoundNode& q = lights_.tree.nodes()[pair.lights];
+bool refinesLights(const trees::BoundTree& receivers, bool glossy, const LightForest::Tree& lights,
+                   const TreePair& pair) {
+  const BoundNode& p = receivers.nodes()[pair.receivers];
+  const BoundNode& q = lights.tree.nodes()[pair.lights];
   if (p.leaf() || q.leaf()) return p.leaf();
-  const LightClass lightClass = lights_.lightClass;
+  const LightClass lightClass = lights.lightClass;
   const bool gaussian = lightClass != LightClass::omni && lightClass != LightClass::diffuse;
-  const float spreadP = spreadOf(p, glossy_, true);
+  const float spreadP = spreadOf(p, glossy, true);
   const float spreadQ = spreadOf(q, gaussian && q.energy > 0, lightClass == LightClass::diffuse);
   // Directional lights: places of receivers do not matter to them.
   if (lightClass == LightClass::directional) return spreadQ >= spreadP;
@@ -90,19 +108,20 @@ bool PairTraversal::refinesLights(const TreePair& pair) const {
   return q.radius + d * spreadQ >= p.radius + d * spreadP;
 }
 
-void PairTraversal::push(const TreePair& pair, bool lights) {
-  if (lights) {
-    active_.push_back({pair.receivers, lights_.tree.left(pair.lights)});
-    active_.push_back({pair.receivers, lights_.tree.right(pair.lights)});
+void splitPair(const trees::BoundTree& receivers, const LightForest::Tree& lights,
+               const TreePair& pair, bool splitsLights, std::vector<TreePair>* out) {
+  if (splitsLights) {
+    out->push_back({pair.receivers, lights.tree.left(pair.lights)});
+    out->push_back({pair.receivers, lights.tree.right(pair.lights)});
   } else {
-    active_.push_back({receivers_.left(pair.receivers), pair.lights});
-    active_.push_back({receivers_.right(pair.receivers), pair.lights});
+    out->push_back({receivers.left(pair.receivers), pair.lights});
+    out->push_back({receivers.right(pair.receivers), pair.lights});
   }
 }
 
 void PairTraversal::refine(const std::vector<TreePair>& pairs) {
   if (settings_.children == TraversalSettings::ChildRule::paper) return refineByPaper(pairs);
-  for (const TreePair& pair : pairs) push(pair, refinesLights(pair));
+  for (const TreePair& pair : pairs) push(pair, refinesLights(receivers_, glossy_, lights_, pair));
 }
 
 // Both ways are tried: the children of either side with the parent on the other.

@@ -9,8 +9,8 @@
 // threads share out among them, where the paper starts near the root. The side to refine is the one
 // that extends further, by places and directions (ChildRule::extent); the paper's rule, refine the
 // side whose children leave the smaller error (of lights the sum, of receivers the larger; the
-// paper does not say), is a setting. Thresholds may not be met exactly: an error of 0 is refined
-// where the threshold is 0.
+// paper does not say), is a setting. A clamp lowers the bounds, too, where the paper has none.
+// Thresholds may not be met exactly: an error of 0 is refined where the threshold is 0.
 #pragma once
 
 #include <functional>
@@ -18,6 +18,7 @@
 
 #include "lobelia/gather/light_forest.h"
 #include "lobelia/gather/node_bounds.h"
+#include "lobelia/gather/receiver_forest.h"
 
 namespace lobelia::gather {
 
@@ -37,6 +38,21 @@ struct TreePair {
   friend bool operator==(const TreePair&, const TreePair&) = default;
 };
 
+// Does splitting the pair split its lights? The side that extends further, by places and
+// directions; never a leaf. glossy: have the receivers Gaussians?
+bool refinesLights(const trees::BoundTree& receivers, bool glossy, const LightForest::Tree& lights,
+                   const TreePair& pair);
+// Puts the pair's two children behind `out`.
+void splitPair(const trees::BoundTree& receivers, const LightForest::Tree& lights,
+               const TreePair& pair, bool splitsLights, std::vector<TreePair>* out);
+
+// The clamp of lobes (GatherSettings::clamp; 0: none), by which bounds are lowered, too, where
+// clampBounds().
+struct ErrorClamp {
+  float clamp = 0;
+  std::span<const ClampedLight> receivers;  // by node
+};
+
 class PairTraversal {
  public:
   // Takes pairs that need not be refined further, some thousands at once. False: no more wanted.
@@ -44,8 +60,12 @@ class PairTraversal {
 
   // glossy: have the receivers Gaussians?
   PairTraversal(const trees::BoundTree& receivers, bool glossy, const LightForest::Tree& lights,
-                const TraversalSettings& settings)
-      : receivers_(receivers), glossy_(glossy), lights_(lights), settings_(settings) {}
+                const TraversalSettings& settings, const ErrorClamp& clamp = {})
+      : receivers_(receivers),
+        glossy_(glossy),
+        lights_(lights),
+        settings_(settings),
+        clamp_(clamp) {}
 
   // All pairs of the receivers of a node with the lights. thresholds: of the node and those below
   // it, in preorder. Returns how many pairs of nodes were bounded.
@@ -53,16 +73,19 @@ class PairTraversal {
 
  private:
   void bound(const std::vector<TreePair>& pairs);
+  void clampBounded(const std::vector<TreePair>& pairs);
   float errorOf(const PairBounds& bounds) const;
-  bool refinesLights(const TreePair& pair) const;
   void refine(const std::vector<TreePair>& pairs);
   void refineByPaper(const std::vector<TreePair>& pairs);
-  void push(const TreePair& pair, bool lights);
+  void push(const TreePair& pair, bool lights) {
+    splitPair(receivers_, lights_, pair, lights, &active_);
+  }
 
   const trees::BoundTree& receivers_;
   const bool glossy_;
   const LightForest::Tree& lights_;
   const TraversalSettings settings_;
+  const ErrorClamp clamp_;
   std::vector<TreePair> active_, batch_, kept_, children_;
   std::vector<NodePair> nodes_;
   std::vector<PairBounds> bounds_;
