@@ -156,6 +156,34 @@ TEST_F(LightSlice, StatisticsSayWhatSlicesShare) {
   EXPECT_GT(s.count("shadow_rays"), 0u);
 }
 
+// Rows of 12 slices, padded to 48 floats, take 200 bytes per light; what a slice makes of its own
+// ones comes on top.
+TEST_F(LightSlice, MemoryCountsRowsAndClusters) {
+  settings_.memory = 600 * 200;
+  EXPECT_THROW(some(), UsageError);
+  settings_.memory = 600 * 320;
+  EXPECT_GT(total(some()), 0);
+  const LightColumns rows = columnsFrom(scatteredVectors(40, 48, 5, 2), 0);
+  const RowFactor factors[] = {{7, 1.f}, {2, 0.5f}, {3, 0.5f}, {4, 0.5f}, {5, 0.5f}, {6, 0.5f}};
+  EXPECT_GT(rows.count * sliceBytes(std::size(factors)), columnsOfRows(rows, factors).bytes());
+}
+
+// A picture whose sampled pixels see nothing must not gather all lights.
+TEST_F(LightSlice, WithoutASampleLightsAreDrawnByPower) {
+  for (OmniLight& light : lights_.omni) light.intensity *= 0.01f;
+  const std::vector<Rgb> exact = all();
+  expectUnbiased(exact, 100, [&](uint64_t draw) {
+    settings_.gather = gather_;
+    settings_.seed = draw;
+    const LightSlices slices(tracer_, {}, lights_, settings_, context_);
+    EXPECT_LE(slices.lightsPerSlice(), 100.0);
+    EXPECT_GT(slices.lightsPerSlice(), 60.0);
+    std::vector<Rgb> radiance(receivers_.points.size());
+    slices.gather(receivers_, kAll, radiance, context_);
+    return radiance;
+  });
+}
+
 TEST_F(LightSlice, TooLittleMemoryIsSaid) {
   settings_.memory = 1000;
   try {

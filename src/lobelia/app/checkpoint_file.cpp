@@ -118,7 +118,7 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--sketch", o.sketch);
     s.emplace_back("--column-scale", o.columnScale);
     s.emplace_back("--near-field", fmt::format("{}", o.nearField));
-    s.emplace_back("--memory", std::to_string(o.memory));
+    s.emplace_back("--memory", std::to_string(memoryOf(o)));
   }
   if (o.gather == "lightcuts" || o.gather == "stochastic") {
     s.emplace_back("--threshold", fmt::format("{}", thresholdOf(o)));
@@ -127,7 +127,7 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
   if (o.gather == "lightslice") {
     s.emplace_back("--slices", std::to_string(slicesOf(o)));
     s.emplace_back("--columns", std::to_string(sliceColumnsOf(o)));
-    s.emplace_back("--memory", std::to_string(o.memory));
+    s.emplace_back("--memory", std::to_string(memoryOf(o)));
   }
   if (o.gather == "sglc") {
     s.emplace_back("--sglc-mode", cutModeOf(o));

@@ -53,6 +53,7 @@ void requireGather(const RenderOptions& options) {
         Owned{"--column-scale", {"mrcs"}, options.columnScale != "scalar"},
         Owned{"--near-field", {"mrcs"}, options.nearField >= 0},
         Owned{"--error", {"mrcs"}, options.error > 0},
+        Owned{"--memory", {"mrcs", "lightslice"}, options.memory > 0},
         Owned{"--sglc-mode", {"sglc"}, !options.cutMode.empty()},
         Owned{"--cut-size", {"sglc", "lightcuts", "stochastic"}, options.cutSize > 0},
         Owned{"--threshold", {"sglc", "lightcuts", "stochastic"}, options.threshold >= 0},
@@ -116,6 +117,9 @@ std::string childrenOf(const RenderOptions& options) {
   return options.children.empty() ? "extent" : options.children;
 }
 
+uint64_t memoryOf(const RenderOptions& options) {
+  return options.memory > 0 ? options.memory : gather::SliceSettings().memory;
+}
 size_t slicesOf(const RenderOptions& options) {
   return options.slices > 0 ? options.slices : gather::SliceSettings().slices;
 }

@@ -24,6 +24,7 @@ std::string boundOf(const RenderOptions& options);
 std::string boundFormOf(const RenderOptions& options);
 std::string shareOf(const RenderOptions& options);
 std::string childrenOf(const RenderOptions& options);
+uint64_t memoryOf(const RenderOptions& options);
 size_t slicesOf(const RenderOptions& options);
 size_t sliceColumnsOf(const RenderOptions& options);
 

@@ -64,7 +64,7 @@ gather::SliceSettings sliceSettings(const RenderOptions& options, const GatherSe
   settings.gather = common;
   settings.slices = slicesOf(options);
   settings.columns = sliceColumnsOf(options);
-  settings.memory = options.memory;
+  settings.memory = memoryOf(options);
   return settings;
 }
 

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "lobelia/app/gather_options.h"
 #include "lobelia/app/receiver_sample.h"
 #include "lobelia/base/error.h"
 #include "lobelia/base/random.h"
@@ -32,7 +33,7 @@ MrcsSettings settingsFor(const RenderOptions& options, const BandPlan& plan) {
   settings.errorLimit *= std::sqrt(static_cast<double>(plan.sets));
   if (!options.sketch.empty())
     settings.sketch = options.sketch == "off" ? 0 : std::stoi(options.sketch);
-  settings.memory = options.memory;
+  settings.memory = memoryOf(options);
   settings.scalePerChannel = options.columnScale == "channel";
   return settings;
 }

@@ -151,7 +151,8 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("K")
       ->check(finiteNumber(0, 1000));
   c.add_option("--memory", o.memory,
-               "--gather mrcs, lightslice: memory for what is kept of all lights; units K, M, G")
+               "--gather mrcs, lightslice: memory for what is kept of all lights; units K, M, G; "
+               "default: 2G")
       ->type_name("BYTES")
       ->transform(byteCount());
   c.add_option("--sglc-mode", o.cutMode,

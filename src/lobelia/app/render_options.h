@@ -44,11 +44,11 @@ struct RenderOptions {
   double error = 0;         // relative error aimed at; 0: the method's default
   std::string sketch;       // numbers kept of each column, "off"; "": the method's default
   std::string columnScale = "scalar";
-  float nearField = -1;                 // of spherical lights, in radii; below 0: the default
-  uint64_t memory = uint64_t{2} << 30;  // bytes for columns
-  std::string cutMode;                  // of --gather sglc; "": the default
-  size_t cutSize = 0;                   // of cuts of light trees; 0: the strategy's default
-  double threshold = -1;                // of bounds, over all light; below 0: the default
+  float nearField = -1;   // of spherical lights, in radii; below 0: the default
+  uint64_t memory = 0;    // bytes for columns; 0: the strategy's default
+  std::string cutMode;    // of --gather sglc; "": the default
+  size_t cutSize = 0;     // of cuts of light trees; 0: the strategy's default
+  double threshold = -1;  // of bounds, over all light; below 0: the default
   std::string bound, boundForm, shared, children;  // of --sglc-mode paper; "": the default
   std::string direct = "nee";
   float radius = 0;  // of spherical lights, over the tenth neighbour's distance; 0: automatic

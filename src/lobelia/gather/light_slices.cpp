@@ -10,12 +10,14 @@
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
 #include "lobelia/gather/chosen_gather.h"
+#include "lobelia/gather/light_forest.h"
+#include "lobelia/gather/mrcs_sampling.h"
 #include "lobelia/gather/slice_clusters.h"
 
 namespace lobelia::gather {
 namespace {
 
-enum : uint64_t { kSliceStream = 1, kClusterStream, kSplitStream };
+enum : uint64_t { kSliceStream = 1, kClusterStream, kSplitStream, kPowerStream };
 
 // The representatives' rows, without rows to check.
 Rows rowsOf(const Receivers& sample, const ReceiverSlices& slices) {
@@ -30,8 +32,11 @@ Rows rowsOf(const Receivers& sample, const ReceiverSlices& slices) {
   return rows;
 }
 
-void requireMemory(const Rows& rows, size_t lights, uint64_t memory) {
-  const uint64_t needed = columnBytes(rows, 0) * lights;
+// The rows, the order of the clusters and, of one slice at a time, what is made of its rows.
+void requireMemory(const Rows& rows, size_t lights, size_t sliceRows, uint64_t memory) {
+  const uint64_t needed =
+      (columnBytes(rows, 0) + sizeof(uint32_t) + sliceBytes(std::min(sliceRows, rows.rowCount))) *
+      lights;
   if (needed <= memory) return;
   const auto mebibytes = [](uint64_t bytes) {
     return std::ceil(static_cast<double>(bytes) / (1 << 20));
@@ -91,8 +96,10 @@ LightSlices::LightSlices(const Tracer& tracer, const Receivers& sample, const Vi
   lit.lobes = sample.lobes;
   std::copy_if(sample.points.begin(), sample.points.end(), std::back_inserter(lit.points),
                [](const ReceiverPoint& p) { return p.lobeCount > 0; });
-  if (numbers_.count() <= settings.columns || lit.points.empty()) {
+  if (numbers_.count() <= settings.columns) {
     chooseAll();
+  } else if (lit.points.empty()) {
+    chooseByPower();
   } else {
     choose(tracer, lit, context);
   }
@@ -104,11 +111,36 @@ void LightSlices::chooseAll() {
   for (size_t i = 0; i < numbers_.count(); ++i) all.push_back(numbers_.at(i));
 }
 
+// Evenly spaced draws, half of their probability by power.
+void LightSlices::chooseByPower() {
+  constexpr double kPowerShare = 0.5;
+  std::vector<ChosenLight>& chosen = chosen_.emplace_back();
+  const auto powerOf = [&](const ChosenLight& light) {
+    return double{luminance(lightPower(lights_, light.lightClass, light.index))};
+  };
+  const double count = static_cast<double>(numbers_.count());
+  const double draws = static_cast<double>(settings_.columns);
+  double total = 0;
+  for (size_t i = 0; i < numbers_.count(); ++i) total += powerOf(numbers_.at(i));
+  double left = uniformNumber(hashCombine(settings_.seed, kPowerStream), 0);  // to the next draw
+  for (size_t i = 0; i < numbers_.count(); ++i) {
+    ChosenLight light = numbers_.at(i);
+    const double even = 1 / count;
+    const double probability =
+        total > 0 ? kPowerShare * powerOf(light) / total + (1 - kPowerShare) * even : even;
+    double times = 0;
+    for (left -= draws * probability; left < 0; ++left) ++times;
+    if (times == 0) continue;
+    light.scale = Rgb(static_cast<float>(times / (draws * probability)));
+    chosen.push_back(light);
+  }
+}
+
 void LightSlices::choose(const Tracer& tracer, const Receivers& sample, Context& context) {
   slices_.emplace(sample, settings_.slices, 2 * tracer.bounds().radius(),
                   hashCombine(settings_.seed, kSliceStream));
   const Rows rows = rowsOf(sample, *slices_);
-  requireMemory(rows, numbers_.count(), settings_.memory);
+  requireMemory(rows, numbers_.count(), settings_.rows, settings_.memory);
   ColumnSettings columnSettings;
   columnSettings.gather = settings_.gather;
   columnSettings.dims = 0;

@@ -6,7 +6,8 @@
 // each cluster.
 //
 // Given any clusters, the mean over the draws is the light of all lights at every receiver.
-// Deviations: slices are made from a sample of the receivers; other deviations are named in the
+// Deviations: slices are made from a sample of the receivers, and where that is empty all receivers
+// gather lights drawn by power; other deviations are named in the
 // files above.
 #pragma once
 
@@ -26,7 +27,7 @@ struct SliceSettings {
   size_t columns = 400;                 // lights that a slice gathers, at most
   size_t rows = 32;                     // that its clusters are made for: its own and the nearest
   double globalShare = 0.5;             // of its clusters, made by all rows
-  uint64_t memory = uint64_t{2} << 30;  // bytes that the rows may take
+  uint64_t memory = uint64_t{2} << 30;  // bytes that rows and clusters may take
   uint64_t seed = 0;
 };
 
@@ -50,6 +51,7 @@ class LightSlices : public PreparedGather {
 
  private:
   void chooseAll();
+  void chooseByPower();
   void choose(const Tracer& tracer, const Receivers& sample, Context& context);
 
   const Tracer& tracer_;

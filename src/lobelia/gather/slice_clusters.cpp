@@ -12,7 +12,9 @@ namespace {
 
 constexpr size_t kShares = 256;  // of the lights, whose sums are added in their order
 
-size_t padded(size_t n) { return (n + kMrcsLanes - 1) / kMrcsLanes * kMrcsLanes; }
+size_t columnLength(size_t rows) {
+  return (3 * rows + 1 + kMrcsLanes - 1) / kMrcsLanes * kMrcsLanes;
+}
 
 // What a share of the lights says about the unseen part.
 struct Share {
@@ -43,7 +45,7 @@ size_t takeRows(const LightColumns& columns, size_t i, std::span<const RowFactor
 LightColumns columnsOfRows(const LightColumns& columns, std::span<const RowFactor> rows) {
   LightColumns out;
   out.count = columns.count;
-  out.dims = padded(3 * rows.size() + 1);
+  out.dims = columnLength(rows.size());
   const float elsewhere = kElsewhereFactor / std::sqrt(static_cast<float>(columns.dims) / 3);
   out.whole.assign(out.count * out.dims, 0.f);
   out.weight.resize(out.count);
@@ -74,6 +76,13 @@ LightColumns columnsOfRows(const LightColumns& columns, std::span<const RowFacto
     out.scale[i] = 1 / out.weight[i];
   });
   return out;
+}
+
+size_t sliceBytes(size_t rows) {
+  // What splitting the largest cluster, of all lights at worst, keeps of a light
+  // (mrcs_splitting.cpp).
+  constexpr size_t kSplitBytes = sizeof(double) + sizeof(std::pair<double, uint32_t>);
+  return columnLength(rows) * sizeof(float) + 2 * sizeof(float) + sizeof(uint32_t) + kSplitBytes;
 }
 
 std::vector<RowFactor> rowsOfSlice(const ReceiverSlices& slices, size_t slice, size_t rows) {

@@ -26,6 +26,9 @@ inline constexpr float kElsewhereFactor = 0.3f;
 // of slice r's representative.
 LightColumns columnsOfRows(const LightColumns& columns, std::span<const RowFactor> rows);
 
+// Bytes per light that chooseForSlice() takes, with so many rows.
+size_t sliceBytes(size_t rows);
+
 // Rows that tell about a slice, its own first.
 std::vector<RowFactor> rowsOfSlice(const ReceiverSlices& slices, size_t slice, size_t rows);
 
