@@ -6,6 +6,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 // After Highway's headers: compiled once per target.
+#include "lobelia/gather/by_class-inl.h"
 #include "lobelia/gather/facing-inl.h"
 
 LOBELIA_CORE_BEGIN
@@ -35,25 +36,6 @@ template <g::LightClass kClass>
 bool facesOf(const g::Tile& tile, size_t s, size_t lane, const g::PreparedLight& light) {
   const size_t first = lane / kLanes * kLanes;
   return facingLanes<kClass>(tile.strips[s], light, first) >> (lane - first) & 1;
-}
-
-// Calls f with the class as a constant.
-template <class F>
-auto byClass(g::LightClass lightClass, const F& f) {
-  using enum g::LightClass;
-  switch (lightClass) {
-    case omni:
-      return f(std::integral_constant<g::LightClass, omni>());
-    case directional:
-      return f(std::integral_constant<g::LightClass, directional>());
-    case diffuse:
-      return f(std::integral_constant<g::LightClass, diffuse>());
-    case spherical:
-      return f(std::integral_constant<g::LightClass, spherical>());
-    case glossy:
-      break;
-  }
-  return f(std::integral_constant<g::LightClass, glossy>());
 }
 
 void keepFacing(const g::Tile& tile, const g::LightBlock& block, g::PairMasks* pairs) {

@@ -11,6 +11,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 // After Highway's headers: compiled once per target.
+#include "lobelia/gather/by_class-inl.h"
 #include "lobelia/gather/shading-inl.h"
 #include "lobelia/gather/spherical-inl.h"
 #include "lobelia/gather/visibility-inl.h"
@@ -19,36 +20,16 @@ LOBELIA_CORE_BEGIN
 
 size_t keepVisible(const g::Tile& tile, const g::LightBlock& block, const Tracer& tracer,
                    g::PairMasks* pairs) {
-  switch (block.lightClass) {
-    case g::LightClass::omni:
-      return keepVisibleOf<g::LightClass::omni>(tile, block, tracer, pairs);
-    case g::LightClass::directional:
-      return keepVisibleOf<g::LightClass::directional>(tile, block, tracer, pairs);
-    case g::LightClass::diffuse:
-      return keepVisibleOf<g::LightClass::diffuse>(tile, block, tracer, pairs);
-    case g::LightClass::spherical:
-      return keepVisibleOf<g::LightClass::spherical>(tile, block, tracer, pairs);
-    case g::LightClass::glossy:
-      break;
-  }
-  return keepVisibleOf<g::LightClass::glossy>(tile, block, tracer, pairs);
+  return byClass(block.lightClass, [&](auto c) {
+    return keepVisibleOf<decltype(c)::value>(tile, block, tracer, pairs);
+  });
 }
 
 template <class Out>
 void shadeClass(const g::Tile& tile, const g::LightBlock& block, float clamp,
                 const g::PairMasks& pairs, Out* out) {
-  switch (block.lightClass) {
-    case g::LightClass::omni:
-      return shadeOf<g::LightClass::omni>(tile, block, clamp, pairs, out);
-    case g::LightClass::directional:
-      return shadeOf<g::LightClass::directional>(tile, block, clamp, pairs, out);
-    case g::LightClass::diffuse:
-      return shadeOf<g::LightClass::diffuse>(tile, block, clamp, pairs, out);
-    case g::LightClass::glossy:
-      return shadeOf<g::LightClass::glossy>(tile, block, clamp, pairs, out);
-    case g::LightClass::spherical:
-      return shadeOf<g::LightClass::spherical>(tile, block, clamp, pairs, out);
-  }
+  byClass(block.lightClass,
+          [&](auto c) { shadeOf<decltype(c)::value>(tile, block, clamp, pairs, out); });
 }
 
 void shade(const g::Tile& tile, const g::LightBlock& block, float clamp, const g::PairMasks& pairs,

@@ -7,6 +7,7 @@
 #include "hwy/highway.h"
 // After Highway's headers: compiled once per target.
 #include "lobelia/base/simd-inl.h"
+#include "lobelia/gather/by_class-inl.h"
 #include "lobelia/gather/node_bounds-inl.h"
 
 LOBELIA_CORE_BEGIN
@@ -38,27 +39,13 @@ void boundPairsOf(std::span<const g::NodePair> pairs, g::BoundForm form, g::Pair
   }
 }
 
-template <g::LightClass kClass>
-void boundPairsTo(std::span<const g::NodePair> pairs, bool glossy, g::BoundForm form,
-                  g::PairBounds* bounds) {
-  glossy ? boundPairsOf<kClass, true>(pairs, form, bounds)
-         : boundPairsOf<kClass, false>(pairs, form, bounds);
-}
-
 void boundPairs(std::span<const g::NodePair> pairs, g::LightClass lightClass, bool glossy,
                 g::BoundForm form, g::PairBounds* bounds) {
-  switch (lightClass) {
-    case g::LightClass::omni:
-      return boundPairsTo<g::LightClass::omni>(pairs, glossy, form, bounds);
-    case g::LightClass::directional:
-      return boundPairsTo<g::LightClass::directional>(pairs, glossy, form, bounds);
-    case g::LightClass::diffuse:
-      return boundPairsTo<g::LightClass::diffuse>(pairs, glossy, form, bounds);
-    case g::LightClass::glossy:
-      return boundPairsTo<g::LightClass::glossy>(pairs, glossy, form, bounds);
-    case g::LightClass::spherical:
-      return boundPairsTo<g::LightClass::spherical>(pairs, glossy, form, bounds);
-  }
+  byClass(lightClass, [&](auto c) {
+    constexpr g::LightClass kClass = decltype(c)::value;
+    glossy ? boundPairsOf<kClass, true>(pairs, form, bounds)
+           : boundPairsOf<kClass, false>(pairs, form, bounds);
+  });
 }
 
 LOBELIA_CORE_END

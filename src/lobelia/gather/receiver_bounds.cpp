@@ -9,6 +9,7 @@
 #include "hwy/highway.h"
 // After Highway's headers: compiled once per target.
 #include "lobelia/base/simd-inl.h"
+#include "lobelia/gather/by_class-inl.h"
 #include "lobelia/gather/node_bounds-inl.h"
 
 LOBELIA_CORE_BEGIN
@@ -48,18 +49,9 @@ void boundNodesOf(const trees::BoundNode& cosine, const trees::BoundNode* gaussi
 void boundNodes(const trees::BoundNode& cosine, const trees::BoundNode* gaussians,
                 std::span<const trees::BoundNode> tree, std::span<const uint32_t> nodes,
                 g::LightClass lightClass, g::NodeBound* bounds) {
-  switch (lightClass) {
-    case g::LightClass::omni:
-      return boundNodesOf<g::LightClass::omni>(cosine, gaussians, tree, nodes, bounds);
-    case g::LightClass::directional:
-      return boundNodesOf<g::LightClass::directional>(cosine, gaussians, tree, nodes, bounds);
-    case g::LightClass::diffuse:
-      return boundNodesOf<g::LightClass::diffuse>(cosine, gaussians, tree, nodes, bounds);
-    case g::LightClass::glossy:
-      return boundNodesOf<g::LightClass::glossy>(cosine, gaussians, tree, nodes, bounds);
-    case g::LightClass::spherical:
-      return boundNodesOf<g::LightClass::spherical>(cosine, gaussians, tree, nodes, bounds);
-  }
+  byClass(lightClass, [&](auto c) {
+    boundNodesOf<decltype(c)::value>(cosine, gaussians, tree, nodes, bounds);
+  });
 }
 
 LOBELIA_CORE_END

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/gather/light_forest.h"
 #include "lobelia/lobes/spherical_gaussian.h"
 
 namespace lobelia::gather {
@@ -13,14 +14,7 @@ using trees::TreeLight;
 // Where directional lights stand, in radii of the scene.
 constexpr float kFar = 100;
 
-TreeLight asTreeLight(const OmniLight& light) {
-  TreeLight out;
-  out.p = light.p;
-  out.diffuse = 4 * luminance(light.intensity);
-  return out;
-}
-
-TreeLight asTreeLight(const DirectionalLight& light, const Bounds3f& bounds) {
+TreeLight farLight(const DirectionalLight& light, const Bounds3f& bounds) {
   const float distance = kFar * std::max(bounds.radius(), 1e-6f);
   TreeLight out;
   out.p = bounds.centre() + light.direction * distance;
@@ -29,43 +23,26 @@ TreeLight asTreeLight(const DirectionalLight& light, const Bounds3f& bounds) {
   return out;
 }
 
-TreeLight asTreeLight(const DiffuseLight& light) {
+// Of finite lights. On all sides: four times what a cosine lobe has of intensity.
+TreeLight asTreeLight(const trees::BoundItem& item, bool omni) {
   TreeLight out;
-  out.p = light.p;
-  out.n = decodeOctahedral(light.normal);
-  out.diffuse = luminance(light.intensity);
-  return out;
-}
-
-TreeLight asTreeLight(const GlossyLight& light) {
-  TreeLight out;
-  out.p = light.p;
-  out.n = light.n;
-  out.axis = light.axis;
-  out.sharpness = light.sharpness;
-  out.glossy = luminance(light.intensity) * lobes::integral(light.sharpness);
-  return out;
-}
-
-TreeLight asTreeLight(const SphericalLight& light, const PreparedSphere& sphere) {
-  const float power = luminance(light.power);
-  TreeLight out;
-  out.p = light.p;
-  out.variance = 0.5f * sphere.squaredRadius;
-  if (!sphere.transmits) out.n = sphere.disc.n;
-  out.diffuse = power * sphere.diffuse;
+  out.p = item.p;
+  out.n = item.n;
+  out.diffuse = (omni ? 4 : 1) * item.cosine;
+  if (item.gaussianCount == 0) return out;
   lobes::Moment moment;
-  for (int i = 0; i < sphere.gaussianCount; ++i) {
-    const PreparedSphere::Gaussian& g = sphere.gaussians[i];
-    moment.add(
-        lobes::momentOf(g.axis, g.sharpness, power * g.amplitude * lobes::integral(g.sharpness)));
+  for (int i = 0; i < item.gaussianCount; ++i) {
+    const auto& g = item.gaussians[i];
+    moment.add(lobes::momentOf(g.axis, g.sharpness, g.amplitude * lobes::integral(g.sharpness)));
   }
-  if (moment.weight > 0) {
-    const lobes::SphericalGaussian lobe = lobes::lobeOf(moment);
-    out.axis = lobe.axis;
-    out.sharpness = lobe.sharpness;
-    out.glossy = moment.weight;
-  }
+  if (!(moment.weight > 0)) return out;
+  out.axis = item.gaussians[0].axis;
+  out.sharpness = item.gaussians[0].sharpness;
+  out.glossy = moment.weight;
+  if (item.gaussianCount == 1) return out;
+  const lobes::SphericalGaussian lobe = lobes::lobeOf(moment);
+  out.axis = lobe.axis;
+  out.sharpness = lobe.sharpness;
   return out;
 }
 
@@ -96,23 +73,13 @@ std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
       const size_t index = block.first + i, place = places[b] + i;
       all.numbers[place] = static_cast<uint32_t>(block.number + i);
       TreeLight& light = all.lights[place];
-      switch (block.lightClass) {
-        case LightClass::omni:
-          light = asTreeLight(lights.omni[index]);
-          break;
-        case LightClass::directional:
-          light = asTreeLight(lights.directional[index], bounds);
-          break;
-        case LightClass::diffuse:
-          light = asTreeLight(lights.diffuse[index]);
-          break;
-        case LightClass::glossy:
-          light = asTreeLight(lights.glossy[index]);
-          break;
-        case LightClass::spherical:
-          light = asTreeLight(lights.spherical[index], sphereOf(index, &own));
-          break;
-      }
+      const bool spherical = block.lightClass == LightClass::spherical;
+      const PreparedSphere* sphere = spherical ? &sphereOf(index, &own) : nullptr;
+      light = block.lightClass == LightClass::directional
+                  ? farLight(lights.directional[index], bounds)
+                  : asTreeLight(boundItemOf(lights, block.lightClass, index, sphere),
+                                block.lightClass == LightClass::omni);
+      if (spherical) light.variance = 0.5f * sphere->squaredRadius;
       trees[place] = block.lightClass == LightClass::directional ? 2 : light.mostlyGlossy() ? 1 : 0;
     }
   });
