@@ -275,37 +275,52 @@ TEST_F(GatherPairs, HorizonsAreNotDark) {
   const Scene empty;
   const Tracer tracer(empty, context_);
   const std::vector<Rgb> exact = all(tracer, above);
-  settings_.threshold = 1;
-  for (settings_.seed = 0; settings_.seed < 10; ++settings_.seed)
-    EXPECT_NEAR(sum(pairs(tracer, above)), sum(exact), 0.02 * sum(exact)) << settings_.seed;
+  const LightForest lights = plantLights(above, settings_.gather, 1, empty, tracer.bounds(), {});
+  ASSERT_EQ(lights.trees.size(), 1u);
+  const ReceiverForest receivers = plantReceivers(receivers_, 1, false, false);
+  const std::vector<PreparedSphere> none;
+  // A pair of nodes per tile, all of whose light is wanted, or none of it.
+  const auto lit = [&](float threshold, uint64_t seed) {
+    const PairScene scene{tracer, above, none, Share::visibility, 0, seed};
+    std::vector<Rgb> light;
+    for (const ReceiverForest::Tree& tree : receivers.trees) {
+      for (const uint32_t tile : tree.tiles) {
+        PairShading shading(scene, tree, tile);
+        std::vector<TreePair> pair{{tile, 0}};
+        const uint32_t count = tree.tree.nodes()[tile].count;
+        shading.add(lights.trees[0], &pair, std::vector<float>(2 * count - 1, threshold));
+        for (uint32_t i = 0; i < count; ++i) light.push_back(shading.radiance(i));
+      }
+    }
+    return sum(light);
+  };
+  double unsplit = 0;
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    EXPECT_NEAR(lit(0, seed), sum(exact), 0.02 * sum(exact)) << seed;
+    unsplit += lit(1e30f, seed) / 10;
+  }
+  EXPECT_LT(unsplit, 0.8 * sum(exact)) << "few draws find ends that face each other";
 }
 
-// A shadow ray goes to the light that matters.
-TEST_F(GatherPairs, RaysGoToLightsByTheirPower) {
-  for (ReceiverPoint& point : receivers_.points) {
-    point.p = {0.001f * static_cast<float>(point.pixel), 0, 0};
-    point.frame = frameFromNormal({0, 0, 1});
-    point.ng = {0, 0, 1}, point.wo = {0, 0, 1};
-    receivers_.lobes[point.firstLobe] = Lobe{};
-    receivers_.lobes[point.firstLobe].weight = Rgb(0.5f);
+// Shadow rays go to lights that matter.
+TEST_F(GatherPairs, LightsOfANodeAreDrawnByPower) {
+  Scene empty;
+  Bounds3f bounds;
+  bounds.add(Vec3f(-1.f)), bounds.add(Vec3f(1.f));
+  const LightForest forest = plantLights(lights_, settings_.gather, 1, empty, bounds, {});
+  constexpr uint64_t kDraws = 100000;
+  for (const LightForest::Tree& tree : forest.trees) {
+    std::vector<double> drawn(tree.lights.size());
+    for (uint64_t i = 0; i < kDraws; ++i) drawn[lightOf(tree, 0, hashCombine(3, i))] += 1;
+    for (const trees::BoundNode& node : tree.tree.nodes()) {
+      if (!node.leaf()) continue;
+      const uint32_t light = tree.lights[node.first];
+      const double expected = double{kDraws} *
+                              double{luminance(lightPower(lights_, tree.lightClass, light))} /
+                              double{luminance(tree.power[0])};
+      EXPECT_NEAR(drawn[light], expected, 5 * std::sqrt(expected) + 1);
+    }
   }
-  // Many dim lights behind a wall, a bright one beside it.
-  Scene wall = randomTriangles(1, 1);
-  wall.meshes[0].positions = {{-1, -3, 2}, {1.5f, -3, 2}, {1.5f, 3, 2}, {-1, 3, 2}};
-  wall.meshes[0].triangles = {{0, 1, 2}, {0, 2, 3}};
-  const Tracer tracer(wall, context_);
-  VirtualLights lights;
-  for (int i = 0; i < 1000; ++i) {
-    const bool bright = i == 700;
-    lights.diffuse.push_back({{bright ? 7.f : 2.f + 1e-3f * static_cast<float>(i), 0, 4},
-                              Rgb(bright ? 100.f : 1e-4f),
-                              encodeOctahedral({0, 0, -1}),
-                              0});
-  }
-  lights.diffuseDepthEnds = {1000};
-  const std::vector<Rgb> exact = all(tracer, lights);
-  settings_.threshold = 1000;
-  EXPECT_NEAR(sum(pairs(tracer, lights)), sum(exact), 0.02 * sum(exact));
 }
 
 TEST_F(GatherPairs, TheFirstBadPixelIsKnown) {

@@ -122,6 +122,7 @@ class LightPairs::Run {
     void take(const PairShading& shading) {
       for (uint32_t i = 0; i < radiance.size(); ++i) radiance[i] = shading.radiance(i);
       for (uint32_t i = 0; i < rays.size(); ++i) rays[i] += shading.receiverRays[i];
+      tally.bounded += shading.bounded;
       tally.rays += shading.rays, tally.shaded += shading.shaded;
       tally.nonfinite += shading.nonfinite;
       tally.visibilityNs += shading.visibilityNs, tally.shadeNs += shading.shadeNs;

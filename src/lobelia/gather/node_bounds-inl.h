@@ -8,6 +8,7 @@
 //   (spherical), intensity (omni); irradiance without 1 / d^2 along a direction of its own
 //   (directional);
 //   receiver: cosine amplitude * [n.w]+ (diffuse), Gaussian where n.w > 0 (glossy).
+// Colours: trees/bound_node.h.
 //
 // [P000 section 4.2], corrected: the upper bound takes the smallest angles with the smallest
 // sharpness, the sum of all amplitudes and the smallest distance; the lower bound the opposite of

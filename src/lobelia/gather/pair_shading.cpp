@@ -70,6 +70,7 @@ void PairShading::splitUnanswered(const LightForest::Tree& lights,
   }
   std::vector<PairBounds> bounds(nodes.size());
   boundPairs(nodes, lights.lightClass, receivers_.glossy, BoundForm::tight, bounds.data());
+  bounded += nodes.size();
   for (size_t i = 0; i < split.size(); ++i) {
     if (bounds[i].upper <= thresholds[split[i].receivers - node_]) continue;
     splitPair(receivers_.tree, lights, split[i],

@@ -45,7 +45,7 @@ class PairShading {
   Rgb radiance(uint32_t i) const;
   void clear();
 
-  uint64_t rays = 0, shaded = 0, nonfinite = 0;
+  uint64_t rays = 0, shaded = 0, nonfinite = 0, bounded = 0;  // the last: pairs of nodes
   int64_t visibilityNs = 0, shadeNs = 0;
   std::optional<uint32_t> firstBad;    // the smallest pixel with a value that was not finite
   std::vector<uint32_t> receiverRays;  // that left from receiver i
