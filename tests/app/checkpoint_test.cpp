@@ -177,6 +177,30 @@ TEST(CheckpointFile, OfOtherSphericalLightsIsRefused) {
   }
 }
 
+// What is not asked for any more, or means something else now, is no reason.
+TEST(CheckpointFile, SettingsOfAnotherChoiceAreNotNamed) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "checkpoint", out = " -o " + (folder / "a.exr ");
+  const std::string made = kScene + ("--size 8x8 --spp 2 --num-lights 50" + out);
+  const auto reasons = [&](const std::string& before, const std::string& now) {
+    EXPECT_EQ(runProgram(made + before + " --checkpoint " + file).exitCode, 0) << before;
+    const ProgramResult r = runProgram(made + now + " --resume " + file);
+    EXPECT_EQ(r.exitCode, 3) << r.err;
+    const size_t begin = r.err.find("made with ") + 10;
+    return r.err.substr(begin, r.err.find(';') - begin);
+  };
+  EXPECT_EQ(reasons("--gather mrcs --columns 20 --rows 30", "--gather lightslice"),
+            "--gather mrcs (now lightslice)");
+  EXPECT_EQ(reasons("--gather sglc --cut-size 9", "--gather sglc --sglc-mode paper"),
+            "--sglc-mode shared (now paper)");
+  EXPECT_EQ(reasons("--gather stochastic", "--lights path"), "--lights glossy (now path)");
+  EXPECT_EQ(reasons("--gather lightcuts", "--gather lightcuts --threshold 0.1 --seed 2"),
+            "--seed 0 (now 2), --threshold 0.02 (now 0.1)");
+  EXPECT_EQ(runProgram(made + "--gather lightcuts --gather-rays 9 --env-lights 7 --resume " + file)
+                .exitCode,
+            0);
+}
+
 TEST(CheckpointFile, OfAnotherRenderIsRefusedAndSaysWhy) {
   const TemporaryFolder folder;
   const std::string file = folder / "checkpoint", out = " -o " + (folder / "a.exr");

@@ -50,11 +50,14 @@ TEST(CommandLine, PicturesLargerThanMemoryAreRefused) {
 // As when the disk is full: nothing is left behind, and the program says why.
 TEST(CommandLine, FileSizeLimitsLeaveNothing) {
   const TemporaryFolder folder;
+  test::writeText(folder / "old.exr", "old");
   const std::string command = "ulimit -f 8; " LOBELIA_PROGRAM
                               " render cornell --detail 0.1 --size 64x64 --spp 1 --num-lights 8 "
                               "--quiet -o " +
-                              (folder / "a.exr") + " 2> /dev/null";
+                              (folder / "old.exr") + " -o " + (folder / "a.exr") + " 2> /dev/null";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+  EXPECT_EQ(test::readText(folder / "old.exr"), "old");
+  std::filesystem::remove(folder / "old.exr");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
@@ -113,6 +116,16 @@ TEST(CommandLine, RenderWritesPicturesAovsStatisticsAndMetadata) {
   EXPECT_LE(stats["memory"]["bytes_per_light"], 52.0);
   EXPECT_GT(stats["receivers"]["diffuse"], 0);
   EXPECT_GT(stats["receivers"]["glossy"], 0);
+  // Tone-mapped light beside linear light is compared, with a warning.
+  const std::string exr = folder / "a.exr", png = folder / "a.png";
+  for (const std::string& files : {exr + " " + png, png + " " + exr}) {
+    const ProgramResult mixed = runProgram("compare " + files);
+    EXPECT_EQ(mixed.exitCode, 0) << mixed.err;
+    EXPECT_NE(mixed.err.find(png + " is a picture for display"), std::string::npos) << mixed.err;
+    EXPECT_EQ(runProgram("compare --quiet " + files).err, "");
+  }
+  EXPECT_EQ(runProgram("compare " + png + " " + png).err, "");
+  EXPECT_EQ(runProgram("compare " + exr + " " + exr).err, "");
 }
 
 TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
