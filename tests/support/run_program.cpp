@@ -66,9 +66,9 @@ class Server : public testing::Environment {
     int ends[2];
     ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends), 0);
     std::fflush(nullptr);
-    const pid_t child = fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
+    process_ = fork();
+    ASSERT_GE(process_, 0);
+    if (process_ == 0) {
       close(ends[0]);
       serve(ends[1]);
     }
@@ -76,8 +76,10 @@ class Server : public testing::Environment {
     socket_ = ends[0];
   }
   void TearDown() override {
+    if (socket_ < 0) return;
     close(socket_);
     socket_ = -1;
+    waitpid(process_, nullptr, 0);
   }
   // False when there is no answer.
   bool run(const std::string& request, int& status) {
@@ -89,6 +91,7 @@ class Server : public testing::Environment {
  private:
   std::mutex mutex_;
   int socket_ = -1;
+  pid_t process_ = -1;
 };
 
 Server* const server = [] {
