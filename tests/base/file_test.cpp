@@ -72,18 +72,16 @@ TEST_F(FileTest, FollowsLinks) {
 TEST_F(FileTest, WhatCannotBeWrittenIsKnownBefore) {
   writeFileAtomically(path("old"), bytesOf("old"));
   fs::create_directory(path("folder"));
-  fs::create_symlink("missing/file", path("nowhere"));
   fs::create_symlink("new", path("link"));
   for (const char* good : {"new", "old", "link"}) EXPECT_EQ(whyNotWritable(path(good)), "") << good;
   EXPECT_EQ(whyNotWritable("/dev/null"), "");
-  for (const std::string& bad :
-       {path("folder"), path("missing/file"), path("nowhere"), path("old/file"),
-        path(std::string(250, 'a')), std::string("/proc/a")}) {
+  for (const std::string& bad : {path("folder"), path("missing/file"), path("old/file"),
+                                 path(std::string(250, 'a')), std::string("/proc/a")}) {
     EXPECT_NE(whyNotWritable(bad), "") << bad;
     EXPECT_THROW(writeFileAtomically(bad, bytesOf("new")), RuntimeError) << bad;
   }
   EXPECT_EQ(readFile(path("old")), bytesOf("old"));
-  EXPECT_EQ(fileCount(), 4u);
+  EXPECT_EQ(fileCount(), 3u);
 }
 
 TEST_F(FileTest, LimitIsKept) {
