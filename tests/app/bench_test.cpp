@@ -170,8 +170,8 @@ TEST(BenchVsl, MethodsSideBySide) {
 
 TEST(BenchVsl, CurvesOfSeveralScenes) {
   const std::string arguments =
-      "vsl --figures 8 --scene study-ggx --scene study-diffuse" + tinyVsl("16x12", 600, 150);
-  const json result = runBench(arguments);
+      "vsl --figures 8 --scene study-diffuse" + tinyVsl("16x12", 600, 150);
+  const json result = runBench(arguments + "--scene study-ggx");
   const json& columns = result["figure8_columns"];
   ASSERT_EQ(columns.size(), 4u) << columns;  // 500 and all, twice
   for (const json& row : columns) EXPECT_GT(row["vsl_l2"], 0) << row;
@@ -182,8 +182,8 @@ TEST(BenchVsl, CurvesOfSeveralScenes) {
   const json& clamp = result["figure8_clamp"];
   expectNumbers(clamp, 24, {"vpl_l2", "vpl_ratio", "glossy_l2"});
   EXPECT_LT(clamp[0]["vpl_ratio"], clamp[11]["vpl_ratio"]) << "tighter clamps lose more";
-  EXPECT_EQ(runBench(arguments + " --threads 1")["figure8_columns"], columns)
-      << "depends on threads";
+  const json one = runBench(arguments + "--threads 1")["figure8_columns"];
+  EXPECT_EQ(one, json({columns[0], columns[1]})) << "depends on threads, or on other scenes";
 }
 
 TEST(BenchVsl, BoxesOfItsOwn) {

@@ -70,7 +70,8 @@ bool interrupted(const std::string& arguments, int signal, const std::string& ch
 
 class Checkpoint : public testing::TestWithParam<Method> {};
 
-TEST_P(Checkpoint, KilledRendersEndAsIfNothingHadHappened) {
+// Stopped by its time limit, killed, interrupted, and gone on with each time.
+TEST_P(Checkpoint, StoppedRendersEndAsIfNothingHadHappened) {
   const TemporaryFolder folder;
   const std::string options = std::string(kScene) + GetParam().options;
   ASSERT_EQ(
@@ -80,40 +81,28 @@ TEST_P(Checkpoint, KilledRendersEndAsIfNothingHadHappened) {
   const std::string checkpoint = folder / "checkpoint";
   const std::string resumed = options + " --resume " + checkpoint + " -o " + (folder / "cut.exr") +
                               " --stats " + (folder / "cut.json");
+  ASSERT_EQ(runProgram(resumed + " --time-limit 0.001").exitCode, 0);
+  ASSERT_TRUE(std::filesystem::exists(checkpoint));
   // The first must come before the end of the picture; a busy machine may need several tries.
   bool killed = false;
   for (int i = 0; i < 20 && !killed; ++i) {
-    std::filesystem::remove(checkpoint);
+    if (i > 0) std::filesystem::remove(checkpoint);
+    std::filesystem::remove(folder / "cut.exr");
     killed =
         interrupted(resumed, SIGKILL, checkpoint) && !std::filesystem::exists(folder / "cut.exr");
-    std::filesystem::remove(folder / "cut.exr");
   }
   ASSERT_TRUE(killed);
-  for (const int signal : {SIGINT, SIGKILL}) interrupted(resumed, signal, checkpoint);
-  const ProgramResult last = runProgram(resumed);
+  interrupted(resumed, SIGINT, checkpoint);
+  const ProgramResult last = runProgram(resumed + " --threads 1");
   ASSERT_EQ(last.exitCode, 0) << last.err;
   EXPECT_NE(last.err.find("going on from " + checkpoint), std::string::npos) << last.err;
   expectSamePicture(folder / "cut.exr", folder / "whole.exr");
-  const auto counts = [&](const char* file) {
-    return nlohmann::json::parse(test::readText(folder / file))["counts"];
-  };
-  EXPECT_EQ(counts("cut.json"), counts("whole.json"));
-  const auto gathered = [&](const char* file) {
-    return nlohmann::json::parse(test::readText(folder / file))["gather"];
-  };
-  EXPECT_EQ(gathered("cut.json"), gathered("whole.json"));
-}
-
-TEST_P(Checkpoint, TimeLimitedRendersGoOn) {
-  const TemporaryFolder folder;
-  const std::string options = std::string(kScene) + GetParam().options;
-  ASSERT_EQ(runProgram(options + " -o " + (folder / "whole.exr")).exitCode, 0);
-  const std::string resumed =
-      options + " --resume " + (folder / "checkpoint") + " -o " + (folder / "cut.exr");
-  ASSERT_EQ(runProgram(resumed + " --time-limit 0.001").exitCode, 0);
-  ASSERT_TRUE(std::filesystem::exists(folder / "checkpoint"));
-  ASSERT_EQ(runProgram(resumed + " --threads 1").exitCode, 0);
-  expectSamePicture(folder / "cut.exr", folder / "whole.exr");
+  for (const char* part : {"counts", "gather"}) {
+    const auto statistics = [&](const char* file) {
+      return nlohmann::json::parse(test::readText(folder / file))[part];
+    };
+    EXPECT_EQ(statistics("cut.json"), statistics("whole.json")) << part;
+  }
   // What is finished is written again, without rendering.
   std::filesystem::remove(folder / "cut.exr");
   ASSERT_EQ(runProgram(resumed).exitCode, 0);
@@ -175,6 +164,30 @@ TEST(CheckpointFile, OfOtherSphericalLightsIsRefused) {
     EXPECT_EQ(r.exitCode, 3) << change << "\n" << r.err;
     EXPECT_NE(r.err.find("(now "), std::string::npos) << r.err;
   }
+}
+
+// What is not asked for any more, or means something else now, is no reason.
+TEST(CheckpointFile, SettingsOfAnotherChoiceAreNotNamed) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "checkpoint", out = " -o " + (folder / "a.exr ");
+  const std::string made = kScene + ("--size 8x8 --spp 2 --num-lights 50" + out);
+  const auto reasons = [&](const std::string& before, const std::string& now) {
+    EXPECT_EQ(runProgram(made + before + " --checkpoint " + file).exitCode, 0) << before;
+    const ProgramResult r = runProgram(made + now + " --resume " + file);
+    EXPECT_EQ(r.exitCode, 3) << r.err;
+    const size_t begin = r.err.find("made with ") + 10;
+    return r.err.substr(begin, r.err.find(';') - begin);
+  };
+  EXPECT_EQ(reasons("--gather mrcs --columns 20 --rows 30", "--gather lightslice"),
+            "--gather mrcs (now lightslice)");
+  EXPECT_EQ(reasons("--gather sglc --cut-size 9", "--gather sglc --sglc-mode paper"),
+            "--sglc-mode shared (now paper)");
+  EXPECT_EQ(reasons("--gather stochastic", "--lights path"), "--lights glossy (now path)");
+  EXPECT_EQ(reasons("--gather lightcuts", "--gather lightcuts --threshold 0.1 --seed 2"),
+            "--seed 0 (now 2), --threshold 0.02 (now 0.1)");
+  EXPECT_EQ(runProgram(made + "--gather lightcuts --gather-rays 9 --env-lights 7 --resume " + file)
+                .exitCode,
+            0);
 }
 
 TEST(CheckpointFile, OfAnotherRenderIsRefusedAndSaysWhy) {

@@ -11,11 +11,12 @@ using test::expectFailure;
 using test::kSmall;
 using test::ProgramResult;
 using test::runProgram;
+using test::runProgramInShell;
 using test::TemporaryFolder;
 
 TEST(Usage, HelpVersionAndMethods) {
-  EXPECT_EQ(runProgram("--help").exitCode, 0);
-  EXPECT_NE(runProgram("--version").out.find("lobelia 0."), std::string::npos);
+  EXPECT_EQ(runProgramInShell("--help").exitCode, 0);
+  EXPECT_NE(runProgramInShell("--version").out.find("lobelia 0."), std::string::npos);
   const ProgramResult methods = runProgram("methods");
   EXPECT_EQ(methods.exitCode, 0);
   EXPECT_NE(methods.out.find("glossy"), std::string::npos);
@@ -65,6 +66,46 @@ TEST(Usage, WrongUsageIsTwo) {
   expectFailure("render cornell --stats " + (folder / "a.exr") + out, 2, "twice");
   expectFailure("compare a.exr a.exr --diff " + (folder / "d.exr"), 2, ".png");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// The scene that is not there would be said otherwise.
+TEST(Usage, BadPicturesAreRefusedBeforeTheSceneIsRead) {
+  const TemporaryFolder folder;
+  const std::string render = "render " + (folder / "none.xml") + " -o " + (folder / "a.exr ");
+  expectFailure(render + "--aov albedo,norml", 2, "did you mean 'normal'");
+  expectFailure(render + "--lights path --aov cst", 2, "did you mean 'cost'");
+  expectFailure(render + "--size 64*48", 2, "as in 640x480");
+  expectFailure(render + "--size 64x0", 2, "from 1 to 65536");
+  expectFailure(render + "--crop 5,5,2,9", 2, "--crop");
+  expectFailure("bench clamp --scene " + (folder / "none.xml") + " --size 10", 2, "--size");
+  expectFailure(render + "--size 64x48 --aov cost", 3, "none.xml");
+}
+
+// Nor is anything made or lost.
+TEST(Usage, OutputsThatCannotBeWrittenAreRefusedBeforeTheSceneIsRead) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "none.xml";
+  std::filesystem::create_directory(folder / "made.exr");
+  const std::string longName = folder / (std::string(249, 'a') + ".exr");  // but not its temporary
+  const std::pair<std::string, const char*> places[] = {{folder / "no/a.exr", "there is no folder"},
+                                                        {folder / "made.exr", "it is a folder"},
+                                                        {"/proc/a.exr", "cannot write"},
+                                                        {longName, "cannot write"}};
+  for (const auto& [place, mentions] : places) {
+    expectFailure("render " + scene + " -o " + place, 2, mentions);
+    for (const std::string option : {"--stats ", "--save-lights ", "--checkpoint ", "--resume "})
+      expectFailure("render " + scene + " -o " + (folder / "b.exr") + " " + option + place, 2,
+                    mentions);
+    expectFailure("fit " + scene + " -o " + place, 2, "");
+    expectFailure("bench clamp --scene " + scene + " --json " + place, 2, mentions);
+    expectFailure("relight " + scene + " -o " + place, 2, mentions);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "made.exr"));
+  std::filesystem::remove(folder / "made.exr");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  test::writeText(folder / "old.exr", "old");
+  expectFailure("render " + scene + " -o " + (folder / "old.exr"), 3, "none.xml");
+  EXPECT_EQ(test::readText(folder / "old.exr"), "old");
 }
 
 TEST(Usage, BadInputIsThree) {

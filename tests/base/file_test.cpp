@@ -69,6 +69,21 @@ TEST_F(FileTest, FollowsLinks) {
   EXPECT_EQ(readFile(path("real")), bytesOf("new"));
 }
 
+TEST_F(FileTest, WhatCannotBeWrittenIsKnownBefore) {
+  writeFileAtomically(path("old"), bytesOf("old"));
+  fs::create_directory(path("folder"));
+  fs::create_symlink("new", path("link"));
+  for (const char* good : {"new", "old", "link"}) EXPECT_EQ(whyNotWritable(path(good)), "") << good;
+  EXPECT_EQ(whyNotWritable("/dev/null"), "");
+  for (const std::string& bad : {path("folder"), path("missing/file"), path("old/file"),
+                                 path(std::string(250, 'a')), std::string("/proc/a")}) {
+    EXPECT_NE(whyNotWritable(bad), "") << bad;
+    EXPECT_THROW(writeFileAtomically(bad, bytesOf("new")), RuntimeError) << bad;
+  }
+  EXPECT_EQ(readFile(path("old")), bytesOf("old"));
+  EXPECT_EQ(fileCount(), 3u);
+}
+
 TEST_F(FileTest, LimitIsKept) {
   writeFileAtomically(path("a"), std::vector<std::byte>(100));
   EXPECT_EQ(readFile(path("a"), 100).size(), 100u);

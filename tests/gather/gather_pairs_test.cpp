@@ -5,7 +5,7 @@
 
 #include "gather/random_input.h"
 #include "gather/spherical_setup.h"
-#include "lobelia/base/parallel.h"
+#include "gather/strategy_test.h"
 
 namespace lobelia {
 namespace {
@@ -13,34 +13,15 @@ namespace {
 using namespace gather;
 using namespace test;
 
-double sum(const std::vector<Rgb>& light) {
-  double total = 0;
-  for (const Rgb& value : light) total += double{value.x} + double{value.y} + double{value.z};
-  return total;
-}
-double relativeError(const std::vector<Rgb>& light, const std::vector<Rgb>& exact) {
-  double error = 0, whole = 0;
-  for (size_t i = 0; i < light.size(); ++i) {
-    error += double{lengthSquared(light[i] - exact[i])};
-    whole += double{lengthSquared(exact[i])};
-  }
-  return std::sqrt(error / whole);
-}
-
 class GatherPairs : public testing::Test {
  protected:
   GatherPairs() { settings_.gather.direct = true; }
   std::vector<Rgb> all(const Tracer& tracer, const VirtualLights& lights) {
-    std::vector<Rgb> radiance(receivers_.points.size());
-    gatherAll(tracer, receivers_, lights, settings_.gather, radiance, context_);
-    return radiance;
+    return lightOfAll(tracer, receivers_, lights, settings_.gather, context_);
   }
   std::vector<Rgb> pairs(const Tracer& tracer, const VirtualLights& lights,
                          GatherParts* parts = nullptr) {
-    std::vector<Rgb> radiance(receivers_.points.size());
-    const LightPairs gather(tracer, lights, settings_, context_);
-    gather.gather(receivers_, GatherSettings::kAllPixels, radiance, context_, parts);
-    return radiance;
+    return lightOf(LightPairs(tracer, lights, settings_, context_), receivers_, context_, parts);
   }
   uint64_t count(const char* name) const { return context_.statistics.count(name); }
   // What a count grows by.
@@ -49,12 +30,6 @@ class GatherPairs : public testing::Test {
     const uint64_t before = count(name);
     f();
     return count(name) - before;
-  }
-  static void expectEqual(const std::vector<Rgb>& some, const std::vector<Rgb>& exact) {
-    ASSERT_EQ(some.size(), exact.size());
-    for (size_t i = 0; i < exact.size(); ++i)
-      for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(some[i][c], exact[i][c], 3e-5f * exact[i][c] + 1e-12f) << i;
   }
 
   Receivers receivers_ =

@@ -12,6 +12,72 @@
 
 namespace lobelia::test {
 
+inline double sum(const std::vector<Rgb>& light) {
+  double total = 0;
+  for (const Rgb& value : light) total += double{value.x} + double{value.y} + double{value.z};
+  return total;
+}
+// |a - b| / |b|
+inline double relativeError(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+  double error = 0, norm = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    error += double{lengthSquared(a[i] - b[i])};
+    norm += double{lengthSquared(b[i])};
+  }
+  return std::sqrt(error / norm);
+}
+// But for the order of sums.
+inline void expectEqual(const std::vector<Rgb>& light, const std::vector<Rgb>& exact) {
+  ASSERT_EQ(light.size(), exact.size());
+  EXPECT_GT(sum(exact), 0);
+  for (size_t i = 0; i < exact.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(light[i][c], exact[i][c], 3e-5f * exact[i][c] + 1e-12f) << i;
+}
+
+// The light of all lights, or of what a strategy is prepared for.
+inline std::vector<Rgb> lightOfAll(const Tracer& tracer, const Receivers& receivers,
+                                   const VirtualLights& lights, const GatherSettings& settings,
+                                   Context& context) {
+  std::vector<Rgb> radiance(receivers.points.size());
+  gatherAll(tracer, receivers, lights, settings, radiance, context);
+  return radiance;
+}
+inline std::vector<Rgb> lightOf(const gather::PreparedGather& strategy, const Receivers& receivers,
+                                Context& context, GatherParts* parts = nullptr,
+                                uint32_t pixel = GatherSettings::kAllPixels) {
+  std::vector<Rgb> radiance(receivers.points.size());
+  strategy.gather(receivers, pixel, radiance, context, parts);
+  return radiance;
+}
+
+// gather(parts): the light, and its parts where they are asked for. rays: the count of the
+// receivers', among all that are counted.
+template <class Gather>
+void expectPartsAddUp(VirtualLights& lights, const Context& context, const Gather& gather,
+                      const char* rays = "shadow_rays") {
+  lights.groups = {"a", "b"};
+  lights.omniGroups.assign(lights.omni.size(), 1);
+  GatherParts parts;
+  parts.groupCount = 2, parts.byType = true, parts.countRays = true;
+  const uint64_t before = context.statistics.count(rays);
+  const std::vector<Rgb> whole = gather(&parts);
+  uint64_t counted = 0;
+  const size_t n = whole.size();
+  for (size_t i = 0; i < n; ++i) {
+    Rgb types;
+    for (size_t t = 0; t < GatherParts::kTypes; ++t) types += parts.types[t * n + i];
+    const Rgb groups = parts.groups[i] + parts.groups[n + i];
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(types[c], whole[i][c], 1e-4f * whole[i][c] + 1e-9f);
+      EXPECT_NEAR(groups[c], whole[i][c], 1e-4f * whole[i][c] + 1e-9f);
+    }
+    counted += parts.rays[i];
+  }
+  EXPECT_EQ(counted, context.statistics.count(rays) - before);
+  EXPECT_EQ(gather(nullptr), whole) << "with and without parts";
+}
+
 class StrategyTest : public testing::Test {
  protected:
   static constexpr uint32_t kAll = GatherSettings::kAllPixels;
@@ -23,36 +89,9 @@ class StrategyTest : public testing::Test {
   // The strategy with the test's settings, the lights and a seed.
   virtual std::unique_ptr<gather::PreparedGather> prepare(uint64_t seed) = 0;
 
-  std::vector<Rgb> all() {
-    std::vector<Rgb> radiance(receivers_.points.size());
-    gatherAll(tracer_, receivers_, lights_, gather_, radiance, context_);
-    return radiance;
-  }
+  std::vector<Rgb> all() { return lightOfAll(tracer_, receivers_, lights_, gather_, context_); }
   std::vector<Rgb> some(uint64_t seed = 0, GatherParts* parts = nullptr, uint32_t pixel = kAll) {
-    std::vector<Rgb> radiance(receivers_.points.size());
-    prepare(seed)->gather(receivers_, pixel, radiance, context_, parts);
-    return radiance;
-  }
-  static double total(const std::vector<Rgb>& light) {
-    double sum = 0;
-    for (const Rgb& value : light) sum += double{value.x} + double{value.y} + double{value.z};
-    return sum;
-  }
-  // |a - b| / |b|
-  static double relativeError(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
-    double error = 0, norm = 0;
-    for (size_t i = 0; i < a.size(); ++i) {
-      error += double{lengthSquared(a[i] - b[i])};
-      norm += double{lengthSquared(b[i])};
-    }
-    return std::sqrt(error / norm);
-  }
-
-  void expectSum(const std::vector<Rgb>& light, const std::vector<Rgb>& exact) {
-    EXPECT_GT(total(exact), 0);
-    for (size_t i = 0; i < exact.size(); ++i)
-      for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(light[i][c], exact[i][c], 2e-5f * exact[i][c] + 1e-12f) << i;
+    return lightOf(*prepare(seed), receivers_, context_, parts, pixel);
   }
   void expectSameForAnyThreads() {
     const std::vector<Rgb> many = some();
@@ -67,28 +106,9 @@ class StrategyTest : public testing::Test {
     EXPECT_LE(std::count_if(one.begin(), one.end(), [](Rgb v) { return v != Rgb{}; }),
               static_cast<ptrdiff_t>(gather::kMaxTilePoints));
   }
-  // rays: of the receivers, among all that are counted.
   void expectPartsAddUp(const char* rays = "shadow_rays") {
-    lights_.groups = {"a", "b"};
-    lights_.omniGroups.assign(lights_.omni.size(), 1);
-    GatherParts parts;
-    parts.groupCount = 2, parts.byType = true, parts.countRays = true;
-    const uint64_t before = context_.statistics.count(rays);
-    const std::vector<Rgb> whole = some(0, &parts);
-    uint64_t counted = 0;
-    const size_t n = whole.size();
-    for (size_t i = 0; i < n; ++i) {
-      Rgb types;
-      for (size_t t = 0; t < GatherParts::kTypes; ++t) types += parts.types[t * n + i];
-      const Rgb groups = parts.groups[i] + parts.groups[n + i];
-      for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(types[c], whole[i][c], 1e-4f * whole[i][c] + 1e-9f);
-        EXPECT_NEAR(groups[c], whole[i][c], 1e-4f * whole[i][c] + 1e-9f);
-      }
-      counted += parts.rays[i];
-    }
-    EXPECT_EQ(counted, context_.statistics.count(rays) - before);
-    EXPECT_EQ(some(), whole) << "with and without parts";
+    test::expectPartsAddUp(
+        lights_, context_, [&](GatherParts* parts) { return some(0, parts); }, rays);
   }
 
   Receivers receivers_ =

@@ -45,14 +45,10 @@ inline void writeText(const std::string& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-// arguments: a shell command line after the program's name.
-inline ProgramResult runProgram(const std::string& arguments) {
-  const TemporaryFolder folder;
-  const std::string command = std::string(LOBELIA_PROGRAM) + " " + arguments + " >" +
-                              (folder / "out") + " 2>" + (folder / "err") + " </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          readText(folder / "out"), readText(folder / "err")};
-}
+// arguments: a shell command line after the program's name. Runs the program's run() in a fork of a
+// process that has only loaded the libraries, which takes longer than most pictures of tests.
+ProgramResult runProgram(const std::string& arguments);
+// The program's own file, by a shell.
+ProgramResult runProgramInShell(const std::string& arguments);
 
 }  // namespace lobelia::test

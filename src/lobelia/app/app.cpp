@@ -146,7 +146,7 @@ struct CommandLine {
 
   ExitCode dispatch(const std::string& text) const {
     if (*renderCommand) return app::render(render, global, text);
-    if (*compareCommand) return compareImages(compare);
+    if (*compareCommand) return compareImages(compare, global);
     if (*fitCommand) return app::fit(fit, global);
     if (*infoCommand) return app::info(info, global);
     if (*sceneCommand) {

@@ -169,6 +169,7 @@ ExitCode bench(const BenchOptions& asked, const GlobalOptions& global,
   BenchOptions options = asked;
   options.commandLine = commandLine;
   if (!options.scenes.empty()) options.scene.scene = options.scenes.front();
+  requireSize(options.size);
   if (!options.json.empty()) requireWritable(options.json);
   const ThreadLimit threads(global.threads);
   Console console(global.verbosity());

@@ -17,7 +17,7 @@ namespace lobelia::app {
 namespace {
 
 constexpr const char* kKind = "checkpoint";
-constexpr uint32_t kFileVersion = 2;
+constexpr uint32_t kFileVersion = 3;
 constexpr const char* kFirstBad = "first_nonfinite_pixel";  // a value among the counters
 constexpr const char* kCounters[] = {
     "path_rays",          "shadow_rays",       "nonfinite",
@@ -64,24 +64,34 @@ std::string hashOf(const std::string& file) {
   return file.empty() ? "none" : fmt::format("{:016x}", store::hashBytes(readFile(file)));
 }
 
-// Both ways, so that a setting that only one side has shows too.
+// Settings that several strategies have, each with its own meaning and default.
+constexpr const char* kOfGather[] = {"--columns", "--memory", "--cut-size", "--threshold"};
+
+// Both ways, so that a setting that only one side has shows too, unless another difference (of
+// --lights, --gather...) is what brings it.
 std::vector<std::string> differences(const Lines& saved, const Lines& wanted) {
-  std::vector<std::string> out;
+  constexpr const char* kNone = "not known";
   const auto valueIn = [](const Lines& lines, const std::string& name) {
     const auto it = std::find_if(lines.begin(), lines.end(),
                                  [&](const auto& line) { return line.first == name; });
-    return it != lines.end() ? it->second : std::string("not known");
+    return it != lines.end() ? it->second : std::string(kNone);
   };
-  for (const auto& [name, value] : wanted) {
-    const std::string other = valueIn(saved, name);
-    if (other != value) out.push_back(fmt::format("{} {} (now {})", name, other, value));
-  }
-  for (const auto& [name, value] : saved) {
-    if (valueIn(wanted, name) == "not known") {
-      out.push_back(fmt::format("{} {} (now not known)", name, value));
-    }
-  }
-  return out;
+  const bool otherGather = valueIn(saved, "--gather") != valueIn(wanted, "--gather");
+  const auto saysNothing = [&](const std::string& name) {
+    return otherGather &&
+           std::find(std::begin(kOfGather), std::end(kOfGather), name) != std::end(kOfGather);
+  };
+  std::vector<std::string> ofBoth, ofOne;
+  const auto compare = [&](const std::string& name) {
+    const std::string before = valueIn(saved, name), now = valueIn(wanted, name);
+    if (before == now || saysNothing(name)) return;
+    std::vector<std::string>& list = before == kNone || now == kNone ? ofOne : ofBoth;
+    list.push_back(fmt::format("{} {} (now {})", name, before, now));
+  };
+  for (const auto& [name, value] : wanted) compare(name);
+  for (const auto& [name, value] : saved)
+    if (valueIn(wanted, name) == kNone) compare(name);
+  return ofBoth.empty() ? ofOne : ofBoth;
 }
 
 }  // namespace
@@ -131,7 +141,9 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
   }
   if (o.gather == "sglc") {
     s.emplace_back("--sglc-mode", cutModeOf(o));
-    s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));
+    if (!gathersPairs(o)) s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));
+  }
+  if (gathersPairs(o)) {
     s.emplace_back("--threshold", fmt::format("{}", thresholdOf(o)));
     s.emplace_back("--bound", boundOf(o));
     s.emplace_back("--sglc-bounds", boundFormOf(o));
@@ -145,14 +157,16 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--vsl-samples", std::to_string(o.sphereSamples));
   }
   s.emplace_back("--num-lights", std::to_string(o.lightCount));
-  s.emplace_back("--env-lights", std::to_string(o.environmentLights));
+  if (o.direct == "lights") s.emplace_back("--env-lights", std::to_string(o.environmentLights));
   s.emplace_back("--passes", std::to_string(o.passes));
   s.emplace_back("--direct", o.direct);
   s.emplace_back("--clamp", o.clamp);
   s.emplace_back("--compensate", o.compensate ? "yes" : "no");
-  s.emplace_back("--photons-nearest", std::to_string(o.photonsNearest));
-  s.emplace_back("--photon-radius", fmt::format("{}", o.photonRadius));
-  s.emplace_back("--gather-rays", std::to_string(o.gatherRays));
+  if (o.lights == "photon") {
+    s.emplace_back("--photons-nearest", std::to_string(o.photonsNearest));
+    s.emplace_back("--photon-radius", fmt::format("{}", o.photonRadius));
+    s.emplace_back("--gather-rays", std::to_string(o.gatherRays));
+  }
   s.emplace_back("--save-lights", o.saveLights.empty() ? "no" : "yes");  // one set of lights
   s.emplace_back("--load-lights", hashOf(o.loadLights));
   return identity;

@@ -10,7 +10,7 @@ struct CompareOptions {
   std::string image, reference, reference2, mask, diff;
   bool json = false;
 };
-ExitCode compareImages(const CompareOptions& options);
+ExitCode compareImages(const CompareOptions& options, const GlobalOptions& global);
 
 struct FitOptions {
   std::string table, output;

@@ -66,9 +66,21 @@ void cutToCommonWindow(const std::vector<Film*>& films) {
   for (Film* film : films) *film = cut(*film, common);
 }
 
+// Tone mapping is not undone: its pictures have another light than those of linear light.
+void warnOfMixture(const Film& image, const std::string& file, const Film& reference,
+                   const std::string& referenceFile, Context& context) {
+  if (image.forDisplay == reference.forDisplay) return;
+  const auto& [shown, linear] =
+      image.forDisplay ? std::pair{file, referenceFile} : std::pair{referenceFile, file};
+  context.warning(
+      fmt::format("{} is a picture for display (tone-mapped, white at most) and {} holds linear "
+                  "light: they are not comparable value by value; compare two of one kind",
+                  shown, linear));
+}
+
 }  // namespace
 
-ExitCode compareImages(const CompareOptions& options) {
+ExitCode compareImages(const CompareOptions& options, const GlobalOptions& global) {
   if (!options.diff.empty()) {
     if (std::filesystem::path(options.diff).extension() != ".png") {
       throw UsageError(fmt::format("--diff {}: the picture is written as .png", options.diff));
@@ -78,6 +90,10 @@ ExitCode compareImages(const CompareOptions& options) {
   Film image = io::readFilm(options.image), reference = io::readFilm(options.reference);
   std::optional<Film> reference2 = readOptional(options.reference2),
                       mask = readOptional(options.mask);
+  Console console(global.verbosity());
+  Context context(&console);
+  warnOfMixture(image, options.image, reference, options.reference, context);
+  if (reference2) warnOfMixture(image, options.image, *reference2, options.reference2, context);
   std::vector<Film*> films{&image, &reference};
   for (std::optional<Film>* film : {&reference2, &mask})
     if (*film) films.push_back(&**film);

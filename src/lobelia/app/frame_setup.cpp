@@ -9,6 +9,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "lobelia/base/file.h"
 #include "lobelia/io/image_io.h"
 
 namespace lobelia::app {
@@ -107,24 +108,36 @@ std::vector<Camera> findCameras(const Scene& scene, const std::string& wanted) {
   return cameras;
 }
 
+std::array<int, 2> parseSize(const std::string& text) {
+  const std::array<int, 2> size = parseIntegers<2>(text, 'x', "--size", "WxH, as in 640x480");
+  const auto [width, height] = size;
+  if (width < 1 || height < 1 || width > 65536 || height > 65536)
+    throw UsageError(fmt::format("--size {}: sides go from 1 to 65536 pixels", text));
+  constexpr int64_t kMaxPixels = 1 << 28;
+  if (int64_t{width} * height > kMaxPixels)
+    throw UsageError(fmt::format("--size {}: more than 2^28 pixels", text));
+  return size;
+}
+
+// X0,Y0,X1,Y1; whether they lie within the picture shows with the camera.
+std::array<int, 4> parseCrop(const std::string& text) {
+  const std::array<int, 4> crop = parseIntegers<4>(text, ',', "--crop", "X0,Y0,X1,Y1");
+  const auto [x0, y0, x1, y1] = crop;
+  if (x0 < 0 || y0 < 0 || x1 <= x0 || y1 <= y0)
+    throw UsageError(fmt::format("--crop {}: X0 is from 0 and less than X1, and so is Y0", text));
+  return crop;
+}
+
 Camera withFilm(Camera camera, const RenderOptions& options) {
   if (!options.size.empty()) {
-    const auto [width, height] =
-        parseIntegers<2>(options.size, 'x', "--size", "WxH, as in 640x480");
-    if (width < 1 || height < 1 || width > 65536 || height > 65536) {
-      throw UsageError(fmt::format("--size {}: sides go from 1 to 65536 pixels", options.size));
-    }
-    constexpr int64_t kMaxPixels = 1 << 28;
-    if (int64_t{width} * height > kMaxPixels) {
-      throw UsageError(fmt::format("--size {}: more than 2^28 pixels", options.size));
-    }
+    const auto [width, height] = parseSize(options.size);
     camera.width = width;
     camera.height = height;
     camera.cropX0 = camera.cropY0 = camera.cropX1 = camera.cropY1 = 0;
   }
   if (!options.crop.empty()) {
-    const auto [x0, y0, x1, y1] = parseIntegers<4>(options.crop, ',', "--crop", "X0,Y0,X1,Y1");
-    if (x0 < 0 || y0 < 0 || x1 <= x0 || y1 <= y0 || x1 > camera.width || y1 > camera.height) {
+    const auto [x0, y0, x1, y1] = parseCrop(options.crop);
+    if (x1 > camera.width || y1 > camera.height) {
       throw UsageError(fmt::format("--crop {} is not a window within {}x{}", options.crop,
                                    camera.width, camera.height));
     }
@@ -138,6 +151,16 @@ Camera withFilm(Camera camera, const RenderOptions& options) {
 }
 
 }  // namespace
+
+void requirePicture(const RenderOptions& options) {
+  requireSize(options.size);
+  if (!options.crop.empty()) parseCrop(options.crop);
+  requestedLayers(options);
+}
+
+void requireSize(const std::string& size) {
+  if (!size.empty()) parseSize(size);
+}
 
 std::vector<Camera> chooseCameras(const Scene& scene, const RenderOptions& options) {
   std::vector<Camera> cameras = findCameras(scene, options.camera);
@@ -209,10 +232,8 @@ void requireWritable(const std::string& file) {
   }
   if (fs::is_directory(path, error))
     throw UsageError(fmt::format("cannot write {}: it is a folder", file));
-  if (access(folder.c_str(), W_OK) != 0) {
-    throw UsageError(
-        fmt::format("cannot write {}: no permission to write in {}", file, folder.string()));
-  }
+  if (const std::string why = whyNotWritable(file); !why.empty())
+    throw UsageError(fmt::format("cannot write {}: {}", file, why));
 }
 
 void requireWritableFolder(const std::string& folder) {

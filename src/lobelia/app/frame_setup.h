@@ -10,6 +10,9 @@
 
 namespace lobelia::app {
 
+// Throws UsageError where --size, --crop or --aov is misspelt, whatever the scene.
+void requirePicture(const RenderOptions& options);
+void requireSize(const std::string& size);  // "": none is asked for
 // The cameras that --camera names, with the film that --size and --crop ask for.
 std::vector<Camera> chooseCameras(const Scene& scene, const RenderOptions& options);
 // Throws UsageError when it names several.
@@ -23,7 +26,7 @@ std::vector<std::string> requestedLayers(const RenderOptions& options);
 Film makeFilm(const Camera& camera, const RenderOptions& options);
 // Fills the picture from "direct" and "indirect" as --component says; drops layers not asked for.
 void composePicture(Film& film, const RenderOptions& options);
-// Checks before hours are spent: known extensions, folders that exist and can be written.
+// Checks before hours are spent: known extensions, files that can be made where they belong.
 void requireWritable(const std::string& file);
 // The same for a folder of files, which is made where it is not there yet.
 void requireWritableFolder(const std::string& folder);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "lobelia/app/frame_setup.h"
 #include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_layers.h"
 #include "lobelia/app/load_scene.h"
@@ -68,6 +69,7 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
                 const std::string& commandLine) {
   requireMethod(options.lights, options.gather);
   requireLightFiles(options);
+  requirePicture(options);
   requireLightLayers(options);
   requireGather(options);
   requireOwnLight(options);

@@ -236,7 +236,7 @@ class VirtualLightRender {
   void requirePosition() const {
     const bool good = at_.sample >= 0 && at_.sample <= plan_.eye.sampleCount && at_.band >= 0 &&
                       at_.band + static_cast<int>(at_.traced) <= plan_.bands && at_.traced <= 1 &&
-                      set_ >= 0 && set_ < plan_.sets;
+                      set_ >= -1 && set_ < plan_.sets;
     if (!good) throw InputError({}, "the checkpoint's position is out of range; start afresh");
   }
 
@@ -281,7 +281,7 @@ class VirtualLightRender {
   Context& context_;
   const int64_t start_ = nanosecondsNow();
 
-  int set_ = 0;                      // used last
+  int set_ = -1;                     // used last; -1: none yet, and none is in the counts
   int ready_ = -1;                   // whose lights lights_ holds
   std::optional<LightParts> first_;  // the first set until it is used
   std::optional<LightGather> lights_;

@@ -16,6 +16,26 @@ namespace {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
+// Where the bytes of a file go: links are followed.
+struct Target {
+  std::string file;
+  bool device = false;  // or a pipe: written to directly
+  int error = 0;
+};
+
+Target targetOf(const std::string& file) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  if (std::filesystem::is_directory(status)) return {file, false, EISDIR};
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return {file, true};
+  if (std::filesystem::is_symlink(file, ignored)) {
+    const auto real = std::filesystem::weakly_canonical(file, ignored);
+    if (!ignored) return {real.string()};
+  }
+  return {file};
+}
+
 [[noreturn]] void failWriting(const std::string& file, int error) {
   throw RuntimeError("cannot write " + file + ": " + reason(error));
 }
@@ -112,30 +132,35 @@ void writeFileAtomically(const std::string& file, std::span<const std::byte> byt
 
 void writeFileAtomically(const std::string& file,
                          std::span<const std::span<const std::byte>> parts) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(file, ignored);
-  if (std::filesystem::is_directory(status)) failWriting(file, EISDIR);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+  const Target target = targetOf(file);
+  if (target.error) failWriting(file, target.error);
+  if (target.device) {
     Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
     if (out.get() < 0) failWriting(file, errno);
     if (const int error = writeParts(out, parts, false)) failWriting(file, error);
     return;
   }
-  std::string target = file;
-  if (std::filesystem::is_symlink(file, ignored)) {
-    const auto real = std::filesystem::weakly_canonical(file, ignored);
-    if (!ignored) target = real.string();
-  }
   std::string temporary;
-  Descriptor out(openTemporary(target, temporary));
+  Descriptor out(openTemporary(target.file, temporary));
   if (out.get() < 0) failWriting(file, errno);
   int error = writeParts(out, parts, true);
-  if (!error && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
+  if (!error && ::rename(temporary.c_str(), target.file.c_str()) != 0) error = errno;
   if (error) {
     ::unlink(temporary.c_str());
     failWriting(file, error);
   }
-  syncFolder(target);
+  syncFolder(target.file);
+}
+
+std::string whyNotWritable(const std::string& file) {
+  const Target target = targetOf(file);
+  if (target.error) return reason(target.error);
+  if (target.device) return ::access(file.c_str(), W_OK) == 0 ? "" : reason(errno);
+  std::string temporary;
+  const Descriptor out(openTemporary(target.file, temporary));
+  if (out.get() < 0) return reason(errno);
+  ::unlink(temporary.c_str());
+  return "";
 }
 
 std::vector<std::byte> readFile(const std::string& file, uint64_t maxBytes) {

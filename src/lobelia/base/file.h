@@ -17,6 +17,9 @@ void writeFileAtomically(const std::string& file, std::span<const std::byte> byt
 // The same for a file in several parts, one after the other.
 void writeFileAtomically(const std::string& file,
                          std::span<const std::span<const std::byte>> parts);
+// Why that would fail now, or "": a file is made beside it and taken away again. Disks that fill up
+// later show only when writing.
+std::string whyNotWritable(const std::string& file);
 // Throws InputError, also when the file holds more than maxBytes.
 std::vector<std::byte> readFile(const std::string& file, uint64_t maxBytes = 1ull << 36);
 // Up to the first `bytes` bytes. Throws InputError.

@@ -24,6 +24,7 @@ struct Film {
   std::map<std::string, Layer> layers;
   std::vector<float> alpha;  // empty: opaque; else 1 where computed (--pixels)
   std::map<std::string, std::string> metadata;
+  bool forDisplay = false;  // read from 8 or 16 bits: tone-mapped, mostly, and white at most
 
   Layer& addLayer(const std::string& name, int channels = 3);
   Rgb rgb(size_t pixel, const std::string& layer = "") const;

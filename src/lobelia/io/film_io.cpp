@@ -161,7 +161,8 @@ Film readFilm(const std::string& file) {
     if (!film.layers.contains(""))
       throw InputError({file, 0, 0}, "no layer with colour; a picture needs R, G and B");
   }
-  if (first.integerBits == 8 || first.integerBits == 16)
+  film.forDisplay = first.integerBits == 8 || first.integerBits == 16;
+  if (film.forDisplay)
     for (auto& [name, layer] : film.layers)
       for (float& v : layer.values) v = decodeSrgb(v);
   return film;

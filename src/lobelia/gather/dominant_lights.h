@@ -1,0 +1,46 @@
+// Lights that may each make much of what a cluster of receivers gets, found from the lights' side.
+// A node of a light tree tells badly of a single light whose lobe is sharp or that is near: drawn
+// too rarely, it flares, or lacks (gather_cuts.h). So every light looks for the clusters that it
+// reaches strongly, by its own lobe, down a tree of the clusters.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lobelia/gather/cut_receivers.h"
+#include "lobelia/trees/light_tree.h"
+
+namespace lobelia::gather {
+
+// A cluster of receivers as the lights see it.
+struct ClusterTarget {
+  CutReceivers receivers;  // representatives(); those that are near each other
+  int count = 0;           // of them; 0: no light counts
+  float least = 0;         // what a light has to give to count, as nodeImportance() tells it
+};
+
+class DominantLights {
+ public:
+  DominantLights() = default;
+  // clusters: neighbours one after the other. A light counts at a cluster that does for one of its
+  // representatives. The same for any number of threads.
+  DominantLights(const std::vector<ClusterTarget>& clusters,
+                 std::span<const trees::LightTree> trees);
+
+  // A leaf of a tree.
+  struct Leaf {
+    uint32_t tree, node;
+    auto operator<=>(const Leaf&) const = default;
+  };
+  // Those that count at a cluster, sorted.
+  std::span<const Leaf> of(size_t cluster) const {
+    return std::span(leaves_).subspan(begins_[cluster], begins_[cluster + 1] - begins_[cluster]);
+  }
+  size_t count() const { return leaves_.size(); }
+
+ private:
+  std::vector<Leaf> leaves_;
+  std::vector<size_t> begins_;
+};
+
+}  // namespace lobelia::gather

@@ -1,0 +1,89 @@
+#include "lobelia/gather/target_tree.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace lobelia::gather {
+namespace {
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
+
+struct Bound {
+  Vec3f centre{};
+  float radius = 0, least = kNever;
+};
+
+// Reflectance at the peaks of all lobes, times weight.
+float peakOf(const CutReceivers& receivers, int lane) {
+  float peak = receivers.diffuse[lane];
+  for (size_t i = 0; i < receivers.gaussianCount; ++i)
+    peak += receivers.gaussians[i].amplitude[lane];
+  return peak * receivers.weight[lane];
+}
+
+Bound boundOf(const ClusterTarget& target, int lane) {
+  Bound bound{target.receivers.p.get(lane), target.receivers.placeSlack[lane], kNever};
+  const float peak = peakOf(target.receivers, lane);
+  if (peak > 0) bound.least = target.least / peak;
+  return bound;
+}
+
+// Around those that something reaches.
+Bound boundOf(const BoundStrip& strip) {
+  Bounds3f box;
+  const auto forEach = [&](const auto& use) {
+    for (int lane = 0; lane < kStrip; ++lane)
+      if (strip.least[lane] < kNever) use(strip.centre.get(lane), strip.radius[lane], lane);
+  };
+  Bound bound;
+  forEach([&](Vec3f p, float radius, int lane) {
+    box.add(p - Vec3f(radius)), box.add(p + Vec3f(radius));
+    bound.least = std::min(bound.least, strip.least[lane]);
+  });
+  if (!(bound.least < kNever)) return bound;
+  bound.centre = box.centre();
+  forEach([&](Vec3f p, float radius, int) {
+    bound.radius = std::max(bound.radius, 1.000001f * (length(p - bound.centre) + radius));
+  });
+  return bound;
+}
+
+std::vector<BoundStrip> stripsOf(const std::vector<Bound>& bounds) {
+  std::vector<BoundStrip> strips((bounds.size() + kStrip - 1) / kStrip);
+  for (size_t i = 0; i < strips.size() * kStrip; ++i) {
+    const Bound bound = i < bounds.size() ? bounds[i] : Bound();
+    BoundStrip& strip = strips[i / kStrip];
+    const int lane = static_cast<int>(i % kStrip);
+    strip.centre.set(lane, bound.centre);
+    strip.radius[lane] = bound.radius;
+    strip.least[lane] = bound.least;
+  }
+  return strips;
+}
+
+}  // namespace
+
+TargetTree::TargetTree(const std::vector<ClusterTarget>& all) {
+  std::vector<Bound> bounds;
+  for (uint32_t cluster = 0; cluster < all.size(); ++cluster) {
+    const ClusterTarget& target = all[cluster];
+    for (int i = 0; i < target.count; ++i) {
+      if (!(target.receivers.weight[i] > 0)) continue;
+      const int lane = static_cast<int>(bounds.size() % kStrip);
+      if (lane == 0) targets.emplace_back();
+      for (int to = lane; to < (lane == 0 ? kStrip : lane + 1); ++to)  // the first fills the others
+        setLane(target.receivers, i, to, &targets.back().receivers);
+      targets.back().least[lane] = target.least;
+      bounds.push_back(boundOf(target, i));
+      clusters.push_back(cluster);
+    }
+  }
+  levels.push_back(stripsOf(bounds));
+  while (levels.back().size() > 1) {
+    bounds.clear();
+    for (const BoundStrip& strip : levels.back()) bounds.push_back(boundOf(strip));
+    levels.push_back(stripsOf(bounds));
+  }
+}
+
+}  // namespace lobelia::gather

@@ -1,0 +1,35 @@
+// A tree of the representatives that lights look for (dominant_lights.h): 16 to a node.
+#pragma once
+
+#include "lobelia/gather/dominant_lights.h"
+
+namespace lobelia::gather {
+
+// Bounds of 16 targets or strips of the level below.
+struct BoundStrip {
+  StripV3 centre;
+  alignas(64) float radius[kStrip];
+  // The least radiant intensity over squared distance that may count; infinity: nothing does.
+  alignas(64) float least[kStrip];
+};
+
+// 16 targets themselves.
+struct TargetStrip {
+  CutReceivers receivers;
+  alignas(64) float least[kStrip];  // ClusterTarget
+};
+
+struct TargetTree {
+  explicit TargetTree(const std::vector<ClusterTarget>& all);
+  std::vector<uint32_t> clusters;  // of the targets
+  std::vector<TargetStrip> targets;
+  std::vector<std::vector<BoundStrip>> levels;  // [0]: of the targets; the last: a single one
+};
+
+// A light that counts at a cluster.
+struct Reached {
+  uint32_t cluster, node;
+  auto operator<=>(const Reached&) const = default;
+};
+
+}  // namespace lobelia::gather
