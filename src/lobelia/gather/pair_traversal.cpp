@@ -26,6 +26,17 @@ float spreadOf(const BoundNode& node, bool gaussian, bool normals) {
 
 }  // namespace
 
+bool lightsExtendFurther(const BoundNode& p, bool glossy, const BoundNode& q,
+                         LightClass lightClass) {
+  const bool gaussian = lightClass != LightClass::omni && lightClass != LightClass::diffuse;
+  const float spreadP = spreadOf(p, glossy, true);
+  const float spreadQ = spreadOf(q, gaussian && q.energy > 0, lightClass == LightClass::diffuse);
+  // Directional lights: places of receivers do not matter to them.
+  if (lightClass == LightClass::directional) return spreadQ >= spreadP;
+  const float d = length(q.centre - p.centre);
+  return q.radius + d * spreadQ >= p.radius + d * spreadP;
+}
+
 std::vector<uint32_t> nodesOfLevel(const trees::BoundTree& tree, int level) {
   std::vector<uint32_t> nodes;
   addLevel(tree, 0, level, &nodes);
@@ -80,14 +91,7 @@ bool PairTraversal::refinesLights(const TreePair& pair) const {
   const BoundNode& p = receivers_.nodes()[pair.receivers];
   const BoundNode& q = lights_.tree.nodes()[pair.lights];
   if (p.leaf() || q.leaf()) return p.leaf();
-  const LightClass lightClass = lights_.lightClass;
-  const bool gaussian = lightClass != LightClass::omni && lightClass != LightClass::diffuse;
-  const float spreadP = spreadOf(p, glossy_, true);
-  const float spreadQ = spreadOf(q, gaussian && q.energy > 0, lightClass == LightClass::diffuse);
-  // Directional lights: places of receivers do not matter to them.
-  if (lightClass == LightClass::directional) return spreadQ >= spreadP;
-  const float d = length(q.centre - p.centre);
-  return q.radius + d * spreadQ >= p.radius + d * spreadP;
+  return lightsExtendFurther(p, glossy_, q, lights_.lightClass);
 }
 
 void PairTraversal::push(const TreePair& pair, bool lights) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lobelia::gather {
 namespace {
@@ -102,24 +103,32 @@ class Envelope {
 
 }  // namespace
 
-ReceiverNodes receiverNodes(const Receivers& receivers, size_t point, const PointStrip& strip) {
+trees::BoundItem receiverItem(const Receivers& receivers, size_t point, const PointStrip& strip,
+                              size_t lane) {
   const ReceiverPoint& at = receivers.points[point];
-  const bool above = strip.above[0] > 0, below = strip.below[0] > 0;
+  const bool above = strip.above[lane] > 0, below = strip.below[lane] > 0;
   const Envelope envelope(receiverBsdf(receivers, at), at.wo, above, below);
   trees::BoundItem item;
   item.p = at.p;
   if (above != below) item.n = above ? at.frame.n : -at.frame.n;
   item.cosine = envelope.diffuse;
-  ReceiverNodes nodes;
-  nodes.cosine = trees::leafOf(item, 0);
-  nodes.glossy = envelope.count > 0;
-  if (!nodes.glossy) return nodes;
-  item.cosine = 0;
   item.gaussianCount = envelope.count;
   for (int i = 0; i < envelope.count; ++i) {
     const PreparedSphere::Gaussian& g = envelope.gaussians[i];
     item.gaussians[i] = {g.axis, g.sharpness, g.amplitude};
   }
+  return item;
+}
+
+ReceiverNodes receiverNodes(const Receivers& receivers, size_t point, const PointStrip& strip) {
+  trees::BoundItem item = receiverItem(receivers, point, strip, 0);
+  const int gaussians = std::exchange(item.gaussianCount, 0);
+  ReceiverNodes nodes;
+  nodes.cosine = trees::leafOf(item, 0);
+  nodes.glossy = gaussians > 0;
+  if (!nodes.glossy) return nodes;
+  item.cosine = 0;
+  item.gaussianCount = gaussians;
   nodes.gaussians = trees::leafOf(item, 0);
   return nodes;
 }
