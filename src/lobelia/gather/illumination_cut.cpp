@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <numeric>
 
 #include "lobelia/base/parallel.h"
@@ -98,8 +99,9 @@ class IlluminationCut::Run {
                             std::count(used.begin(), used.end(), uint8_t{1}), 1));
     std::vector<float> thresholds;
     for (const ReceiverPoint& point : whole_.receivers.points)
-      thresholds.push_back(static_cast<float>(
-          cut_.settings_.threshold * std::max(pixels[point.pixel], double{kFloorShare} * mean)));
+      thresholds.push_back(
+          static_cast<float>(cut_.settings_.threshold *
+                             std::max(std::abs(pixels[point.pixel]), double{kFloorShare} * mean)));
     return thresholds;
   }
 
