@@ -92,7 +92,9 @@ TEST_F(BaselinesRender, IlluminationCut) {
 
 // Samples share cuts: four of them take hardly more rays than one.
 TEST_F(BaselinesRender, MultidimensionalLightcuts) {
-  const std::string base = kBase + "--spp 4 --passes 1 ";
+  const std::string start =
+      "--lights glossy --clamp 0.3 --size 16x12 --num-lights 1500 --component indirect --seed 2 ";
+  const std::string base = start + "--spp 4 --passes 1 ";
   const Film all = render(base, "all");
   double before = 1;
   for (const std::string threshold : {"0.2", "0.05", "0.01"}) {
@@ -107,7 +109,7 @@ TEST_F(BaselinesRender, MultidimensionalLightcuts) {
     EXPECT_GT(stats["counts"]["pixels_per_pixel_node"], 1);
   }
   EXPECT_LT(before, 0.05);
-  render(kBase + "--gather mdlc --cut-size 10000 --threshold 0.01", "one");
+  render(start + "--spp 1 --gather mdlc --cut-size 10000 --threshold 0.01", "one");
   EXPECT_LT(statistics("0.01")["counts"]["shadow_rays"].get<double>(),
             2 * statistics("one")["counts"]["shadow_rays"].get<double>());
 }

@@ -95,7 +95,6 @@ TEST_F(IlluminationCutGather, SpotsKeepTheirPattern) {
   Rng rng(2);
   for (int i = 0; i < 40; ++i) lights_.omni.push_back({randomPoint(&rng, 1), randomColor(&rng), 0});
   settings_.threshold = 0.5;
-  settings_.sampled = false;
   expectSum(some(), sum());
 }
 

@@ -201,7 +201,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
        "--cut-size", o.cutSize,
        "--gather sglc: lights that a cluster of receivers gathers, at most; default: 1024. "
        "lightcuts, stochastic: nodes of a receiver's cut, at most; default: 1000, 256. mdlc: "
-       "pairs of nodes of a pixel's, at most; default: 1000")
+       "pairs of nodes of a pixel's, at most; default: 8000")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 24));
   c.add_option("--env-lights", o.environmentLights,

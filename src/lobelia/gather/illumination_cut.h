@@ -11,7 +11,8 @@
 //     single light is good whatever its bound, as its receivers are lit one by one; one whose bound
 //     is 0 is dark.
 //  4. Visibility by few rays where these agree (sampled_visibility.h), or by a ray of every
-//     receiver: setting `sampled`.
+//     receiver: setting `sampled`. Where the bound of a single light is above the threshold, every
+//     receiver has its ray in any case: shadows that few rays miss could be seen there.
 //
 // Deviations: bounds are ours (node_bounds-inl.h, receiver_nodes.h), which know glossy lights as
 // well as diffuse ones, where the paper has none and [P000] adapts it by taking them as diffuse;

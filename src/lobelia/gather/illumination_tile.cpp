@@ -94,8 +94,8 @@ void IlluminationTile::traverse(uint32_t t, const Judge& judge, const Accept& ac
 // Sorts the pairs; f(block): of up to kBlockLights nodes of lights with all of their pairs, their
 // lights prepared.
 template <class F>
-void IlluminationTile::forBlocks(uint32_t t, std::vector<TreePair>* pairs, const F& f) {
-  std::sort(pairs->begin(), pairs->end(), [](const TreePair& a, const TreePair& b) {
+void IlluminationTile::forBlocks(uint32_t t, std::vector<Accepted>* pairs, const F& f) {
+  std::sort(pairs->begin(), pairs->end(), [](const Accepted& a, const Accepted& b) {
     return a.lights != b.lights ? a.lights < b.lights : a.receivers < b.receivers;
   });
   Block block;
@@ -143,7 +143,7 @@ void IlluminationTile::estimate(std::span<double> light, std::span<uint32_t> ray
         [&](const LightForest::Tree& lights) {
           for (const TreePair& pair : batch_) {
             if (goodForEstimate(pair, lights)) {
-              accepted_.push_back(pair);
+              accepted_.push_back({pair});
             } else {
               refine(pair, lights);
             }
@@ -173,7 +173,7 @@ void IlluminationTile::addEstimate(const Block& block, std::span<double> nodes,
   std::vector<uint16_t> traced(pairs_.bits.size());
   std::vector<uint32_t> places;  // of the pairs' receivers in the tile
   size_t l = 0;
-  for (const TreePair& pair : block.pairs) {
+  for (const Accepted& pair : block.pairs) {
     while (block.nodes[l] != pair.lights) ++l;
     const trees::BoundNode& p = node(pair.receivers);
     const uint64_t key = hashCombine(hashCombine(scene_.seed, placeOf(p)),
@@ -228,8 +228,9 @@ void IlluminationTile::gather(std::span<const float> thresholds, std::span<Rgb> 
       const TreePair& pair = batch_[i];
       const trees::BoundNode& q = lights.tree.nodes()[pair.lights];
       if (uppers_[i] <= 0 && !lights.apart) continue;
-      if (q.leaf() || (uppers_[i] <= least[pair.receivers - node_] && !lights.apart)) {
-        accepted_.push_back(pair);
+      const bool strong = uppers_[i] > least[pair.receivers - node_] || lights.apart;
+      if (q.leaf() || !strong) {
+        accepted_.push_back({pair, strong});
         const uint64_t receivers = node(pair.receivers).count;
         ++tally_.clusters;
         tally_.clusteredReceivers += receivers, tally_.lights += receivers;
@@ -258,12 +259,12 @@ void IlluminationTile::shadeBlock(const Block& block, TileParts* parts) {
   std::fill(pairs_.bits.begin(), pairs_.bits.end(), uint16_t{0});
   lit_.clear();
   uint32_t l = 0;
-  for (const TreePair& pair : block.pairs) {
+  for (const Accepted& pair : block.pairs) {
     while (block.nodes[l] != pair.lights) ++l;
     const trees::BoundNode& p = node(pair.receivers);
     for (uint32_t i = inTile(p); i < inTile(p) + p.count; ++i)
       pairs_.at(l, i / kStrip) |= static_cast<uint16_t>(1u << i % kStrip);
-    lit_.push_back({l, pair.receivers});
+    lit_.push_back({l, pair.receivers, pair.strong});
   }
   for (size_t i = 0; i < pairs_.bits.size(); ++i) pairs_.bits[i] &= allowed_.bits[i];
   if (parts != nullptr) parts->watchRays(&pairs_);

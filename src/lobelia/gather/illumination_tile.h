@@ -38,9 +38,12 @@ class IlluminationTile {
   void gather(std::span<const float> thresholds, std::span<Rgb> radiance);
 
  private:
-  // A block's nodes of lights and where their pairs begin.
+  struct Accepted : TreePair {
+    bool strong = false;  // is its bound above the threshold?
+  };
+  // A block's nodes of lights, with their pairs.
   struct Block {
-    std::span<const TreePair> pairs;
+    std::span<const Accepted> pairs;
     std::vector<uint32_t> nodes;
   };
   const trees::BoundNode& node(uint32_t i) const { return tree_.tree.nodes()[i]; }
@@ -56,7 +59,7 @@ class IlluminationTile {
   template <class Judge, class Accept>
   void traverse(uint32_t t, const Judge& judge, const Accept& accept);
   template <class F>
-  void forBlocks(uint32_t t, std::vector<TreePair>* pairs, const F& f);
+  void forBlocks(uint32_t t, std::vector<Accepted>* pairs, const F& f);
   void addEstimate(const Block& block, std::span<double> nodes, std::span<uint32_t> rays);
   void shadeBlock(const Block& block, TileParts* parts);
   void write(std::span<Rgb> radiance);
@@ -74,7 +77,8 @@ class IlluminationTile {
   LightBlock block_;
   PairMasks pairs_, allowed_;
   PairValues values_;
-  std::vector<TreePair> active_, batch_, accepted_;
+  std::vector<TreePair> active_, batch_;
+  std::vector<Accepted> accepted_;
   std::vector<NodePair> bounded_;
   std::vector<float> uppers_;
   std::vector<LitNode> lit_;

@@ -25,7 +25,7 @@ namespace lobelia::gather {
 struct MultidimensionalSettings {
   GatherSettings gather;
   double threshold = 0.02;  // ProductSettings
-  size_t cutSize = 1000;
+  size_t cutSize = 8000;
   uint64_t seed = 0;
 };
 

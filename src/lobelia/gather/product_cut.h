@@ -26,7 +26,7 @@ struct ProductPair {
 
 struct ProductSettings {
   double threshold = 0.02;  // share of all light; 0: only the number limits the cut
-  size_t cutSize = 1000;    // pairs
+  size_t cutSize = 8000;    // pairs
   float clamp = 0;
 };
 

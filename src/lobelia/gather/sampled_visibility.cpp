@@ -34,17 +34,17 @@ size_t SampledVisibility::keep(const Tile& tile, const LightBlock& block, const 
   size_t traced = 0;
   next_.assign(nodes.begin(), nodes.end());
   while (!next_.empty()) {
-    asked_.clear();
+    asked_ = std::move(next_);
+    next_.clear();
     std::fill(rays_.bits.begin(), rays_.bits.end(), uint16_t{0});
-    for (const LitNode& at : next_) ask(tree, first, seed, &asked_.emplace_back(Asked{at, false}));
+    for (LitNode& node : asked_) ask(tree, first, seed, &node);
     for (size_t i = 0; i < rays_.bits.size(); ++i) {
       rays_.bits[i] &= static_cast<uint16_t>(~known_.bits[i]);
       known_.bits[i] |= rays_.bits[i];
     }
     traced += keepVisible(tile, block, tracer, &rays_);
     for (size_t i = 0; i < rays_.bits.size(); ++i) lit_.bits[i] |= rays_.bits[i];
-    next_.clear();
-    for (const Asked& node : asked_) judge(tree, first, node);
+    for (const LitNode& node : asked_) judge(tree, first, node);
   }
   for (size_t i = 0; i < taken_.bits.size(); ++i)
     pairs->bits[i] = static_cast<uint16_t>(taken_.bits[i] | lit_.bits[i]);
@@ -52,18 +52,18 @@ size_t SampledVisibility::keep(const Tile& tile, const LightBlock& block, const 
 }
 
 void SampledVisibility::ask(const trees::BoundTree& tree, uint32_t first, uint64_t seed,
-                            Asked* asked) {
-  const trees::BoundNode& node = tree.nodes()[asked->at.node];
-  const uint32_t light = asked->at.light;
+                            LitNode* asked) {
+  const trees::BoundNode& node = tree.nodes()[asked->node];
+  const uint32_t light = asked->light;
   uint32_t facing = 0;
   const auto count = [&](uint32_t s, uint16_t lanes) {
     facing += static_cast<uint32_t>(std::popcount<uint16_t>(facing_.at(light, s) & lanes));
   };
   forStrips(node.first - first, node.first - first + node.count, count);
-  asked->all = facing <= kAskedAll;
+  asked->all = asked->all || facing <= kAskedAll;
   const uint32_t wanted = asked->all ? facing : std::max(facing / kShare, kLeast);
   // In each of as many runs of those that face the light one, at the same place of it.
-  const uint64_t random = hashCombine(hashCombine(seed, asked->at.node), light) >> 32;
+  const uint64_t random = hashCombine(hashCombine(seed, asked->node), light) >> 32;
   const auto place = [&](uint32_t i) {
     return static_cast<uint32_t>(((uint64_t{i} << 32) + random) * facing / wanted >> 32);
   };
@@ -81,10 +81,10 @@ void SampledVisibility::ask(const trees::BoundTree& tree, uint32_t first, uint64
   forStrips(node.first - first, node.first - first + node.count, choose);
 }
 
-void SampledVisibility::judge(const trees::BoundTree& tree, uint32_t first, const Asked& asked) {
+void SampledVisibility::judge(const trees::BoundTree& tree, uint32_t first, const LitNode& asked) {
   if (asked.all) return;
-  const trees::BoundNode& node = tree.nodes()[asked.at.node];
-  const uint32_t begin = node.first - first, end = begin + node.count, light = asked.at.light;
+  const trees::BoundNode& node = tree.nodes()[asked.node];
+  const uint32_t begin = node.first - first, end = begin + node.count, light = asked.light;
   bool anyLit = false, anyDark = false;
   forStrips(begin, end, [&](uint32_t s, uint16_t lanes) {
     const uint32_t known = known_.at(light, s) & lanes, lit = lit_.at(light, s) & lanes;
@@ -92,8 +92,8 @@ void SampledVisibility::judge(const trees::BoundTree& tree, uint32_t first, cons
     anyDark = anyDark || (known & ~lit) != 0;
   });
   if (anyLit && anyDark) {
-    next_.push_back({light, tree.left(asked.at.node)});
-    next_.push_back({light, tree.right(asked.at.node)});
+    next_.push_back({light, tree.left(asked.node)});
+    next_.push_back({light, tree.right(asked.node)});
   } else if (anyLit) {
     forStrips(begin, end, [&](uint32_t s, uint16_t lanes) {
       taken_.at(light, s) |= static_cast<uint16_t>(facing_.at(light, s) & lanes);

@@ -13,6 +13,7 @@ namespace lobelia::gather {
 // Receivers of a node with one light of a block.
 struct LitNode {
   uint32_t light = 0, node = 0;
+  bool all = false;  // each of its receivers traces its ray
 };
 
 class SampledVisibility {
@@ -28,16 +29,11 @@ class SampledVisibility {
               uint64_t seed, PairMasks* pairs);
 
  private:
-  struct Asked {
-    LitNode at;
-    bool all = false;  // each of its receivers
-  };
-  void ask(const trees::BoundTree& tree, uint32_t first, uint64_t seed, Asked* node);
-  void judge(const trees::BoundTree& tree, uint32_t first, const Asked& node);
+  void ask(const trees::BoundTree& tree, uint32_t first, uint64_t seed, LitNode* node);
+  void judge(const trees::BoundTree& tree, uint32_t first, const LitNode& node);
 
   PairMasks facing_, known_, lit_, taken_, rays_;
-  std::vector<Asked> asked_;
-  std::vector<LitNode> next_;
+  std::vector<LitNode> asked_, next_;
 };
 
 }  // namespace lobelia::gather
