@@ -1,4 +1,5 @@
-// `render --gather lightslice`, `lightcuts` and `stochastic` as a user types them.
+// `render --gather lightslice`, `lightcuts`, `mdlc`, `stochastic` and `illumcut` as a user types
+// them.
 #include "app/render_test.h"
 #include "lobelia/film/metrics.h"
 
@@ -66,17 +67,83 @@ TEST_F(BaselinesRender, StochasticLightcuts) {
   }
 }
 
+TEST_F(BaselinesRender, IlluminationCut) {
+  const Film all = render(kBase, "all");
+  double before = 0.5;
+  for (const std::string threshold : {"0.2", "0.05", "0.01"}) {
+    const Film film = render(kBase + "--gather illumcut --threshold " + threshold, threshold);
+    const double error = compare(film, all).l2;
+    EXPECT_LT(error, 0.75 * before) << threshold;
+    before = error;
+    const nlohmann::json stats = statistics(threshold);
+    EXPECT_EQ(stats["gather"]["threshold"].get<double>(), std::stod(threshold));
+    EXPECT_FALSE(stats["gather"].contains("cut_size"));
+    EXPECT_GT(stats["counts"]["node_pairs_visited"], 0);
+    EXPECT_GT(stats["counts"]["lights_per_light_node"], 1);
+    EXPECT_GT(stats["counts"]["pixels_per_pixel_node"], 1);
+    EXPECT_GT(stats["seconds"]["trees"], 0);
+  }
+  EXPECT_LT(before, 0.05);
+  const Film full = render(kBase + "--gather illumcut --illumcut-rays full", "full");
+  EXPECT_GT(statistics("full")["counts"]["shadow_rays"],
+            statistics("0.01")["counts"]["shadow_rays"]);
+  EXPECT_LT(compare(full, all).l2, 1.1 * before);
+}
+
+// Samples share cuts: four of them take hardly more rays than one.
+TEST_F(BaselinesRender, MultidimensionalLightcuts) {
+  const std::string start =
+      "--lights glossy --clamp 0.3 --size 16x12 --num-lights 1500 --component indirect --seed 2 ";
+  const std::string base = start + "--spp 4 --passes 1 ";
+  const Film all = render(base, "all");
+  double before = 1;
+  for (const std::string threshold : {"0.2", "0.05", "0.01"}) {
+    const Film film =
+        render(base + "--gather mdlc --cut-size 10000 --threshold " + threshold, threshold);
+    const double error = compare(film, all).l2;
+    EXPECT_LT(error, 0.75 * before) << threshold;
+    before = error;
+    const nlohmann::json stats = statistics(threshold);
+    EXPECT_EQ(stats["gather"]["threshold"].get<double>(), std::stod(threshold));
+    EXPECT_EQ(stats["gather"]["cut_size"], 10000);
+    EXPECT_GT(stats["counts"]["pixels_per_pixel_node"], 1);
+  }
+  EXPECT_LT(before, 0.05);
+  render(start + "--spp 1 --gather mdlc --cut-size 10000 --threshold 0.01", "one");
+  EXPECT_LT(statistics("0.01")["counts"]["shadow_rays"].get<double>(),
+            2 * statistics("one")["counts"]["shadow_rays"].get<double>());
+}
+
+TEST_F(BaselinesRender, MultidimensionalLightcutsHaveASetOfLightsForManySamples) {
+  const std::string base = "--size 8x6 --num-lights 20 --quiet --aov variance --gather ";
+  const Film shared = render(base + "mdlc --spp 18", "shared");
+  EXPECT_EQ(statistics("shared")["lights"]["sets"], 2);
+  const Film own = render(base + "lightcuts --spp 18", "own");
+  EXPECT_EQ(statistics("own")["lights"]["sets"], 18);
+  // Of two values, it is still a variance of the mean.
+  double sharedSum = 0, ownSum = 0;
+  for (const float v : shared.layers.at("variance").values) sharedSum += double{v};
+  for (const float v : own.layers.at("variance").values) ownSum += double{v};
+  EXPECT_GT(sharedSum, 0.02 * ownSum);
+  EXPECT_LT(sharedSum, 50 * ownSum);
+}
+
 // Without a threshold all lights are in the cut, and the options that choose parts of a picture go
 // with every gather.
 TEST_F(BaselinesRender, GoWithOtherOptions) {
   const std::string base = "--size 16x12 --spp 2 --num-lights 100 --clamp 1 --gather ";
   const std::string lightcuts = "lightcuts --threshold 0 --cut-size 3000";
   const std::string stochastic = "stochastic --cut-size 3000", slices = "lightslice --columns 3000";
+  const std::string whole = "illumcut --threshold 0", mdlc = "mdlc --threshold 0 --cut-size 9000";
   for (const auto& [strategy, part] :
        {std::pair{lightcuts, "--crop 4,2,12,10"}, std::pair{slices, "--pixels 60"},
         std::pair{stochastic, "--passes 2"}, std::pair{lightcuts, "--direct lights"},
         std::pair{stochastic, "--max-depth 3"}, std::pair{slices, "--aov groups,types,cost"},
-        std::pair{lightcuts, "--lights vpl"}}) {
+        std::pair{lightcuts, "--lights vpl"}, std::pair{whole, "--crop 4,2,12,10"},
+        std::pair{whole, "--direct lights --pixels 60"}, std::pair{whole, "--max-depth 3"},
+        std::pair{mdlc, "--passes 1 --crop 4,2,12,10"}, std::pair{mdlc, "--passes 1 --pixels 60"},
+        std::pair{mdlc, "--passes 2 --direct lights"}, std::pair{mdlc, "--passes 1 --max-depth 3"},
+        std::pair{mdlc, "--passes 1 --aov groups,types,cost"}}) {
     const Film all = render(base + "all " + part, "all"),
                some = render(base + strategy + " " + part, "some");
     EXPECT_EQ(some.alpha, all.alpha) << part;
@@ -88,9 +155,15 @@ TEST_F(BaselinesRender, WrongUseSaysWhatWouldBeRight) {
   expectError("--gather lightslice --rows 10", "--gather mrcs");
   expectError("--gather mrcs --slices 10", "--gather lightslice");
   expectError("--gather all --columns 10", "mrcs, lightslice");
-  expectError("--gather mrcs --threshold 0.1", "sglc, lightcuts, stochastic");
+  expectError("--gather mrcs --threshold 0.1", "sglc, lightcuts, mdlc, stochastic, illumcut");
+  expectError("--gather illumcut --cut-size 10", "sglc, lightcuts, mdlc, stochastic");
+  expectError("--gather mdlc --illumcut-rays full", "--gather illumcut");
+  expectError("--gather illumcut --illumcut-rays half", "sampled");
+  expectError("--gather illumcut --bound conservative", "sglc");
+  expectError("--gather mdlc --columns 10", "mrcs, lightslice");
+  expectError("--lights path --gather mdlc", "--lights path");
   expectError("--gather lightcuts --threshold 2", "--threshold");
-  expectError("--gather lightslice --cut-size 10", "sglc, lightcuts, stochastic");
+  expectError("--gather lightslice --cut-size 10", "sglc, lightcuts, mdlc, stochastic");
   expectError("--gather lightcut", "lightcuts");
   expectError("--gather lightslice --num-lights 3000 --memory 1K", "--slices");
   expectError("--gather lightcuts --memory 1G", "mrcs, lightslice");

@@ -135,6 +135,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"stochastic",
                            "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather stochastic "
                            "--cut-size 30 --aov direct,indirect,variance,cost"},
+                    Method{"mdlc",
+                           "--size 48x40 --spp 12 --passes 3 --num-lights 900 --gather mdlc "
+                           "--cut-size 60 --aov direct,indirect,variance,cost,types"},
+                    Method{"illumcut",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather illumcut "
+                           "--aov direct,indirect,variance,cost,types"},
                     Method{"pairs",
                            "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather sglc "
                            "--sglc-mode paper --aov direct,indirect,variance,cost,types"},

@@ -67,7 +67,8 @@ TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
   for (const char* method :
        {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs", "vsl --gather sglc",
         "vpl --gather sglc --sglc-mode paper", "glossy --gather lightslice",
-        "glossy --gather lightcuts", "glossy --gather stochastic", "vpl --compensate", "photon"}) {
+        "glossy --gather lightcuts", "glossy --gather mdlc", "glossy --gather stochastic",
+        "vsl --gather illumcut", "vpl --compensate", "photon"}) {
     ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
                          " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
                   .exitCode,
@@ -135,7 +136,8 @@ TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
         "vsl --gather sglc --cut-size 20", "vpl --gather sglc --cut-size 20",
         "glossy --gather sglc --sglc-mode paper",
         "glossy --gather lightslice --columns 20 --slices 10",
-        "vsl --gather lightcuts --cut-size 20", "glossy --gather stochastic --cut-size 20",
+        "vsl --gather lightcuts --cut-size 20", "vsl --gather mdlc --cut-size 20",
+        "glossy --gather illumcut", "glossy --gather stochastic --cut-size 20",
         "glossy --compensate", "photon"}) {
     const auto render = [&](int threads, const char* seed) {
       const std::string file = folder / (std::to_string(threads) + seed + ".exr");

@@ -204,8 +204,8 @@ TEST_F(LightLayers, TypesSumToWhatWasGathered) {
 
 TEST_F(LightLayers, TypesOfSphericalLights) {
   const std::vector<std::string> parts{"vd", "vs", "specular"};
-  for (const char* gather :
-       {"all", "mrcs", "sglc", "sglc --sglc-mode paper", "lightslice", "lightcuts", "stochastic"}) {
+  for (const char* gather : {"all", "mrcs", "sglc", "sglc --sglc-mode paper", "lightslice",
+                             "lightcuts", "mdlc --passes 1", "stochastic", "illumcut"}) {
     SCOPED_TRACE(gather);
     const Film film = render("all.xml",
                              "--lights vsl --spp 2 --num-lights 500 --specular-limit 0 --component "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_layers.h"
 
 namespace lobelia::app {
@@ -12,7 +13,8 @@ namespace {
 constexpr size_t kBandPixels = 1 << 17;
 // Pairs of receiver and light between looks at the clock: about 15 s of two cores.
 constexpr size_t kPairs = 300'000'000;
-constexpr size_t kRunStep = 128;  // receivers: whole packets of them
+constexpr size_t kRunStep = 128;      // receivers: whole packets of them
+constexpr int kSamplesTogether = 64;  // of a pixel, at most: memory for a band's receivers
 
 }  // namespace
 
@@ -32,15 +34,54 @@ BandPlan planBands(const Tracer& tracer, const PixelSet& pixels, int maxDepth, s
   plan.eye.pixels = pixels;
 
   plan.sets = lightSetCount(options, plan.eye.sampleCount);
-  const size_t bandPixels = std::min(kBandPixels, kPairs / std::max<size_t>(lights, 1));
+  plan.wholePixels = gathersPixels(options);
+  if (plan.wholePixels)
+    plan.samplesTogether =
+        std::min((plan.eye.sampleCount + plan.sets - 1) / plan.sets, kSamplesTogether);
+  const size_t bandPixels = std::min(kBandPixels, kPairs / std::max<size_t>(lights, 1)) /
+                            static_cast<size_t>(plan.samplesTogether);
   const size_t width = static_cast<size_t>(std::max(film.width, 1));
   plan.bandRows = static_cast<int>(std::clamp<size_t>(bandPixels / width / 8 * 8, 8, 4096));
   plan.bands = (film.height + plan.bandRows - 1) / plan.bandRows;
   return plan;
 }
 
+int BandPlan::samplesEnd(int sample) const {
+  int end = sample + 1;
+  while (end < eye.sampleCount && end - sample < samplesTogether && set(end) == set(sample)) ++end;
+  return end;
+}
+int BandPlan::groupsOf(int samples) const {
+  int groups = 0;
+  for (int sample = 0; sample < samples; sample = samplesEnd(sample)) ++groups;
+  return groups;
+}
+
 size_t runLength(size_t lights) {
   return std::max<size_t>(kPairs / std::max<size_t>(lights, 1) / kRunStep, 1) * kRunStep;
+}
+
+size_t endOfRun(const Receivers& receivers, size_t begin, size_t length, const BandPlan& plan) {
+  const std::vector<ReceiverPoint>& points = receivers.points;
+  size_t end = std::min(begin + length, points.size());
+  while (plan.wholePixels && end < points.size() && points[end].pixel == points[end - 1].pixel)
+    ++end;
+  return end;
+}
+
+void append(const Receivers& more, Receivers* all) {
+  const uint32_t lobes = static_cast<uint32_t>(all->lobes.size());
+  all->lobes.insert(all->lobes.end(), more.lobes.begin(), more.lobes.end());
+  for (ReceiverPoint point : more.points) {
+    point.firstLobe += lobes;
+    all->points.push_back(point);
+  }
+}
+
+void sortByPixel(Receivers* receivers) {
+  std::stable_sort(
+      receivers->points.begin(), receivers->points.end(),
+      [](const ReceiverPoint& a, const ReceiverPoint& b) { return a.pixel < b.pixel; });
 }
 
 Receivers slice(const Receivers& all, size_t begin, size_t end) {

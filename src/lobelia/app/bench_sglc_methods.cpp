@@ -9,8 +9,10 @@
 #include "lobelia/app/methods.h"
 #include "lobelia/gather/gather_cuts.h"
 #include "lobelia/gather/gather_pairs.h"
+#include "lobelia/gather/illumination_cut.h"
 #include "lobelia/gather/light_slices.h"
 #include "lobelia/gather/lightcuts.h"
+#include "lobelia/gather/multidimensional_lightcuts.h"
 #include "lobelia/gather/stochastic_lightcuts.h"
 
 namespace lobelia::app {
@@ -28,14 +30,18 @@ const std::vector<std::pair<std::string, SglcQuality>>& qualities() {
   static const double cut = static_cast<double>(gather::CutSettings().nodes);
   static const double threshold = gather::PairGatherSettings().threshold;
   static const double lightcuts = gather::LightcutsSettings().threshold;
+  static const double mdlc = gather::MultidimensionalSettings().threshold;
   static const double columns = static_cast<double>(gather::SliceSettings().columns);
   static const double stochastic = static_cast<double>(gather::StochasticSettings().cutSize);
+  static const double illumcut = gather::IlluminationCutSettings().threshold;
   static const std::vector<std::pair<std::string, SglcQuality>> table{
       {kPaper, {"--threshold", threshold, {0.08, 0.04, 0.02, threshold}, setThreshold}},
       {"sglc", {"--cut-size", cut, {cut / 16, cut / 4, cut, 4 * cut}, setCutSize}},
       {"mrcs", {"--columns", cut, {cut / 4, cut, 4 * cut}, setColumns}},
       {"lightslice", {"--columns", columns, {columns / 4, columns, 4 * columns}, setColumns}},
       {"lightcuts", {"--threshold", lightcuts, {0.08, 0.04, lightcuts, 0.01}, setThreshold}},
+      {"mdlc", {"--threshold", mdlc, {0.08, 0.04, mdlc, 0.01}, setThreshold}},
+      {"illumcut", {"--threshold", illumcut, {0.08, 0.04, 0.02, illumcut}, setThreshold}},
       {"stochastic", {"--cut-size", stochastic, {64, stochastic, 1024}, setCutSize}},
   };
   return table;

@@ -130,9 +130,13 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--near-field", fmt::format("{}", o.nearField));
     s.emplace_back("--memory", std::to_string(memoryOf(o)));
   }
-  if (o.gather == "lightcuts" || o.gather == "stochastic") {
+  if (o.gather == "lightcuts" || o.gather == "mdlc" || o.gather == "stochastic") {
     s.emplace_back("--threshold", fmt::format("{}", thresholdOf(o)));
     s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));
+  }
+  if (o.gather == "illumcut") {
+    s.emplace_back("--threshold", fmt::format("{}", thresholdOf(o)));
+    s.emplace_back("--illumcut-rays", illumcutRaysOf(o));
   }
   if (o.gather == "lightslice") {
     s.emplace_back("--slices", std::to_string(slicesOf(o)));

@@ -9,8 +9,10 @@
 #include "lobelia/base/error.h"
 #include "lobelia/gather/gather_cuts.h"
 #include "lobelia/gather/gather_pairs.h"
+#include "lobelia/gather/illumination_cut.h"
 #include "lobelia/gather/light_slices.h"
 #include "lobelia/gather/lightcuts.h"
+#include "lobelia/gather/multidimensional_lightcuts.h"
 #include "lobelia/gather/stochastic_lightcuts.h"
 
 namespace lobelia::app {
@@ -55,8 +57,11 @@ void requireGather(const RenderOptions& options) {
         Owned{"--error", {"mrcs"}, options.error > 0},
         Owned{"--memory", {"mrcs", "lightslice"}, options.memory > 0},
         Owned{"--sglc-mode", {"sglc"}, !options.cutMode.empty()},
-        Owned{"--cut-size", {"sglc", "lightcuts", "stochastic"}, options.cutSize > 0},
-        Owned{"--threshold", {"sglc", "lightcuts", "stochastic"}, options.threshold >= 0},
+        Owned{"--cut-size", {"sglc", "lightcuts", "mdlc", "stochastic"}, options.cutSize > 0},
+        Owned{"--threshold",
+              {"sglc", "lightcuts", "mdlc", "stochastic", "illumcut"},
+              options.threshold >= 0},
+        Owned{"--illumcut-rays", {"illumcut"}, !options.illumcutRays.empty()},
         Owned{"--bound", {"sglc"}, !options.bound.empty()},
         Owned{"--sglc-bounds", {"sglc"}, !options.boundForm.empty()},
         Owned{"--sglc-share", {"sglc"}, !options.shared.empty()},
@@ -75,9 +80,8 @@ size_t gatheredLights(size_t lights, const RenderOptions& options) {
   constexpr size_t kCostOfChoice = 4;
   // Of a receiver's pairs of nodes: as many receivers as a band has should share them.
   constexpr size_t kNodes = 2000;
-  if (gathersPairs(options)) return std::min(lights, kNodes);
-  if (options.gather == "sglc" || options.gather == "lightcuts" || options.gather == "stochastic")
-    return std::min(lights, kCostOfChoice * cutSizeOf(options));
+  if (gathersPairs(options) || options.gather == "illumcut") return std::min(lights, kNodes);
+  if (hasCutSize(options)) return std::min(lights, kCostOfChoice * cutSizeOf(options));
   if (options.gather == "lightslice") return std::min(lights, sliceColumnsOf(options));
   return options.gather == "mrcs" ? std::min(lights, mostColumns(options)) : lights;
 }
@@ -88,6 +92,7 @@ std::string cutModeOf(const RenderOptions& options) {
 size_t cutSizeOf(const RenderOptions& options) {
   if (options.cutSize > 0) return options.cutSize;
   if (options.gather == "lightcuts") return gather::LightcutsSettings().cutSize;
+  if (options.gather == "mdlc") return gather::MultidimensionalSettings().cutSize;
   if (options.gather == "stochastic") return gather::StochasticSettings().cutSize;
   return gather::CutSettings().nodes;
 }
@@ -95,13 +100,23 @@ size_t cutSizeOf(const RenderOptions& options) {
 bool gathersPairs(const RenderOptions& options) {
   return options.gather == "sglc" && cutModeOf(options) == "paper";
 }
+bool gathersPixels(const RenderOptions& options) { return options.gather == "mdlc"; }
+bool hasCutSize(const RenderOptions& options) {
+  const std::string& gather = options.gather;
+  return (gather == "sglc" && !gathersPairs(options)) || gather == "lightcuts" ||
+         gather == "mdlc" || gather == "stochastic";
+}
 bool hasThreshold(const RenderOptions& options) {
-  return gathersPairs(options) || options.gather == "lightcuts" || options.gather == "stochastic";
+  const std::string& gather = options.gather;
+  return gathersPairs(options) || gather == "lightcuts" || gather == "mdlc" ||
+         gather == "stochastic" || gather == "illumcut";
 }
 double thresholdOf(const RenderOptions& options) {
   if (options.threshold >= 0) return options.threshold;
   if (options.gather == "lightcuts") return gather::LightcutsSettings().threshold;
+  if (options.gather == "mdlc") return gather::MultidimensionalSettings().threshold;
   if (options.gather == "stochastic") return gather::StochasticSettings().threshold;
+  if (options.gather == "illumcut") return gather::IlluminationCutSettings().threshold;
   return gather::PairGatherSettings().threshold;
 }
 std::string boundOf(const RenderOptions& options) {
@@ -120,6 +135,11 @@ std::string childrenOf(const RenderOptions& options) {
 uint64_t memoryOf(const RenderOptions& options) {
   return options.memory > 0 ? options.memory : gather::SliceSettings().memory;
 }
+
+std::string illumcutRaysOf(const RenderOptions& options) {
+  return options.illumcutRays.empty() ? "sampled" : options.illumcutRays;
+}
+
 size_t slicesOf(const RenderOptions& options) {
   return options.slices > 0 ? options.slices : gather::SliceSettings().slices;
 }

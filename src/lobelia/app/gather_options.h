@@ -16,8 +16,11 @@ size_t gatheredLights(size_t lights, const RenderOptions& options);
 // Options with the strategy's defaults filled in.
 std::string cutModeOf(const RenderOptions& options);
 size_t cutSizeOf(const RenderOptions& options);
-// Does the strategy refine pairs of nodes (--sglc-mode paper)? Has it a --threshold? Its --bound.
+// Does the strategy refine pairs of nodes (--sglc-mode paper)? Does it want all receivers of a
+// pixel together? Has it a --cut-size, a --threshold? Its --bound.
 bool gathersPairs(const RenderOptions& options);
+bool gathersPixels(const RenderOptions& options);
+bool hasCutSize(const RenderOptions& options);
 bool hasThreshold(const RenderOptions& options);
 double thresholdOf(const RenderOptions& options);
 std::string boundOf(const RenderOptions& options);
@@ -25,6 +28,7 @@ std::string boundFormOf(const RenderOptions& options);
 std::string shareOf(const RenderOptions& options);
 std::string childrenOf(const RenderOptions& options);
 uint64_t memoryOf(const RenderOptions& options);
+std::string illumcutRaysOf(const RenderOptions& options);
 size_t slicesOf(const RenderOptions& options);
 size_t sliceColumnsOf(const RenderOptions& options);
 

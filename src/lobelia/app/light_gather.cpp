@@ -5,8 +5,10 @@
 #include "lobelia/base/random.h"
 #include "lobelia/gather/gather_cuts.h"
 #include "lobelia/gather/gather_pairs.h"
+#include "lobelia/gather/illumination_cut.h"
 #include "lobelia/gather/light_slices.h"
 #include "lobelia/gather/lightcuts.h"
+#include "lobelia/gather/multidimensional_lightcuts.h"
 #include "lobelia/gather/stochastic_lightcuts.h"
 
 namespace lobelia::app {
@@ -50,12 +52,30 @@ gather::LightcutsSettings lightcutsSettings(const RenderOptions& options,
   return settings;
 }
 
+gather::MultidimensionalSettings multidimensionalSettings(const RenderOptions& options,
+                                                          const GatherSettings& common) {
+  gather::MultidimensionalSettings settings;
+  settings.gather = common;
+  settings.threshold = thresholdOf(options);
+  settings.cutSize = cutSizeOf(options);
+  return settings;
+}
+
 gather::StochasticSettings stochasticSettings(const RenderOptions& options,
                                               const GatherSettings& common) {
   gather::StochasticSettings settings;
   settings.gather = common;
   settings.threshold = thresholdOf(options);
   settings.cutSize = cutSizeOf(options);
+  return settings;
+}
+
+gather::IlluminationCutSettings illumcutSettings(const RenderOptions& options,
+                                                 const GatherSettings& common) {
+  gather::IlluminationCutSettings settings;
+  settings.gather = common;
+  settings.threshold = thresholdOf(options);
+  settings.sampled = illumcutRaysOf(options) == "sampled";
   return settings;
 }
 
@@ -101,9 +121,15 @@ LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, c
     if (options.gather == "lightcuts")
       return prepareTrees<gather::Lightcuts>(tracer, lights, lightcutsSettings(options, settings_),
                                              own, context);
+    if (options.gather == "mdlc")
+      return prepareTrees<gather::MultidimensionalLightcuts>(
+          tracer, lights, multidimensionalSettings(options, settings_), own, context);
     if (options.gather == "stochastic")
       return prepareTrees<gather::StochasticLightcuts>(
           tracer, lights, stochasticSettings(options, settings_), own, context);
+    if (options.gather == "illumcut")
+      return prepareTrees<gather::IlluminationCut>(
+          tracer, lights, illumcutSettings(options, settings_), own, context);
     if (options.gather != "lightslice") return nullptr;
     gather::SliceSettings settings = sliceSettings(options, settings_);
     settings.seed = own;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "lobelia/app/gather_options.h"
 #include "lobelia/lights/spherical_coverage.h"
 #include "lobelia/lights/spherical_radius.h"
 
@@ -165,7 +166,12 @@ int virtualLightSamples(const RenderOptions& options) { return options.spp > 0 ?
 
 int lightSetCount(const RenderOptions& options, int sampleCount) {
   const bool oneSet = !options.saveLights.empty() || !options.loadLights.empty();
-  return std::min(options.passes > 0 ? options.passes : oneSet ? 1 : sampleCount, sampleCount);
+  // What gathers pixels whole shares lights among samples.
+  constexpr int kSamplesOfSet = 16;
+  const int sets = oneSet                   ? 1
+                   : gathersPixels(options) ? (sampleCount + kSamplesOfSet - 1) / kSamplesOfSet
+                                            : sampleCount;
+  return std::min(options.passes > 0 ? options.passes : sets, sampleCount);
 }
 
 int lightSetOf(int sample, int sampleCount, int setCount) {

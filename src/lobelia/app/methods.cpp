@@ -10,8 +10,8 @@
 namespace lobelia::app {
 
 const std::vector<LightModel>& lightModels() {
-  static const std::vector<std::string> everyStrategy{"all",       "mrcs",       "lightslice",
-                                                      "lightcuts", "stochastic", "sglc"};
+  static const std::vector<std::string> everyStrategy{
+      "all", "mrcs", "lightslice", "lightcuts", "mdlc", "stochastic", "illumcut", "sglc"};
   static const std::vector<LightModel> models{
       {"path",
        "reference path tracing: next-event estimation and BSDF sampling, no virtual lights",
@@ -37,8 +37,14 @@ const std::vector<GatherStrategy>& gatherStrategies() {
        "LightSlice: groups of like receivers have few lights of their own that stand for all"},
       {"lightcuts",
        "Lightcuts: every receiver has a cut of a light tree of its own, refined by upper bounds"},
+      {"mdlc",
+       "multidimensional lightcuts: all samples of a pixel share a cut, of pairs of light and "
+       "receiver nodes"},
       {"stochastic",
-       "stochastic lightcuts: the same, with one light drawn below every node, without bias"},
+       "stochastic lightcuts: as lightcuts, with one light drawn below every node, without bias"},
+      {"illumcut",
+       "IlluminationCut: pairs of light and receiver nodes, refined by upper bounds against a "
+       "coarse picture"},
       {"sglc",
        "shared stochastic cuts: neighbouring receivers share lights drawn by a cut of a light "
        "tree; --sglc-mode paper: pairs of light and receiver nodes, refined by bounds"},

@@ -112,7 +112,8 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->check(integerRange(1, int64_t{1} << 31));
   c.add_option("--passes", o.passes,
                "Independent sets of lights, among which the samples are shared out; default: a set "
-               "per sample (one set with --save-lights, --load-lights)")
+               "per sample (one set with --save-lights, --load-lights; one per 16 samples with "
+               "--gather mdlc)")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 24));
   c.add_option("--rows", o.rows,
@@ -161,11 +162,15 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "or pairs of light and receiver nodes, refined by bounds (paper)")
       ->type_name("MODE")
       ->check(oneOf({"shared", "unbiased", "paper"}));
-  c.add_option("--threshold", o.threshold,
-               "--sglc-mode paper: error that a pair of nodes may have, relative to what its "
-               "pixels have; 0: all lights; default: 0.01. --gather lightcuts, stochastic: share "
-               "of a receiver's light below which the bound of a node's must be, unless the cut "
-               "is full; 0: only its size limits it; default: lightcuts 0.02, stochastic 0")
+  c.add_option(
+       "--threshold", o.threshold,
+       "--sglc-mode paper: error that a pair of nodes may have, relative to what its "
+       "pixels have; 0: all lights; default: 0.01. --gather lightcuts, mdlc, stochastic: share "
+       "of a receiver's (mdlc: a pixel's) light below which the bound of a node's must be, unless "
+       "the cut "
+       "is full; 0: only its size limits it; default: lightcuts, mdlc 0.02, stochastic "
+       "0. illumcut: share of what pixels have in a coarse picture, below which the bound "
+       "of a pair of nodes must be; 0: all lights; default: 0.01")
       ->type_name("R")
       ->check(finiteNumber(0, 1));
   c.add_option("--bound", o.bound,
@@ -188,9 +193,16 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "default), or that whose children leave the smaller error (paper)")
       ->type_name("RULE")
       ->check(oneOf({"extent", "paper"}));
-  c.add_option("--cut-size", o.cutSize,
-               "--gather sglc: lights that a cluster of receivers gathers, at most; default: 1024. "
-               "lightcuts, stochastic: nodes of a receiver's cut, at most; default: 1000, 256")
+  c.add_option("--illumcut-rays", o.illumcutRays,
+               "--gather illumcut: shadow rays of some receivers of a node, of more where they do "
+               "not agree (sampled, the default), or of every receiver (full)")
+      ->type_name("WHICH")
+      ->check(oneOf({"sampled", "full"}));
+  c.add_option(
+       "--cut-size", o.cutSize,
+       "--gather sglc: lights that a cluster of receivers gathers, at most; default: 1024. "
+       "lightcuts, stochastic: nodes of a receiver's cut, at most; default: 1000, 256. mdlc: "
+       "pairs of nodes of a pixel's, at most; default: 8000")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 24));
   c.add_option("--env-lights", o.environmentLights,

@@ -50,6 +50,7 @@ struct RenderOptions {
   size_t cutSize = 0;     // of cuts of light trees; 0: the strategy's default
   double threshold = -1;  // of bounds, over all light; below 0: the default
   std::string bound, boundForm, shared, children;  // of --sglc-mode paper; "": the default
+  std::string illumcutRays;                        // of --gather illumcut; "": the default
   std::string direct = "nee";
   float radius = 0;  // of spherical lights, over the tenth neighbour's distance; 0: automatic
   std::string sphereIndicator = "planar", sphereSampling = "product";

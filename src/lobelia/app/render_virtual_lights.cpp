@@ -59,8 +59,9 @@ class VirtualLightRender {
   VirtualLightReport run() {
     resume();
     while (at_.sample < plan_.eye.sampleCount && renderSample()) {
-      variance_->afterSample(plan_.eye.sampleCount);
-      ++at_.sample;
+      const int end = plan_.samplesEnd(at_.sample);
+      variance_->afterSamples(plan_.eye.sampleCount, end - at_.sample);
+      at_.sample = end;
       at_.band = 0;
     }
     save();
@@ -121,11 +122,13 @@ class VirtualLightRender {
     const auto [y0, y1] = plan_.rows(at_.band, film_);
     const std::optional<Receivers> receivers = traceBand(y0, y1);
     if (!receivers || !gatherBand(*receivers)) return false;
-    for (int y = y0; y < y1; ++y) ++rowSamples_[static_cast<size_t>(y)];
+    const int samples = plan_.samplesEnd(at_.sample) - at_.sample;
+    for (int y = y0; y < y1; ++y) rowSamples_[static_cast<size_t>(y)] += samples;
     show(y0, y1);
     at_ = {.sample = at_.sample, .band = at_.band + 1};
-    context_.progress("render", (at_.sample + static_cast<double>(at_.band) / plan_.bands) /
-                                    plan_.eye.sampleCount);
+    context_.progress("render",
+                      (at_.sample + samples * static_cast<double>(at_.band) / plan_.bands) /
+                          plan_.eye.sampleCount);
     return true;
   }
 
@@ -140,8 +143,9 @@ class VirtualLightRender {
   std::optional<Receivers> traceBand(int y0, int y1) {
     if (resumed_) return std::exchange(resumed_, std::nullopt);
     backup_->take(y0, y1);
-    Receivers receivers =
-        traceReceivers(tracer_, emitters_, camera_, plan_.eye, y0, y1, film_, context_);
+    Receivers receivers = traceTogether(plan_, [&](const EyeSettings& eye) {
+      return traceReceivers(tracer_, emitters_, camera_, eye, y0, y1, film_, context_);
+    });
     if (!context_.cancelled()) {
       addOwnLight({tracer_, emitters_, photons_.get(), plan_, maxDepth_, options_}, receivers,
                   film_, &*layers_, context_);
@@ -167,7 +171,7 @@ class VirtualLightRender {
   bool gatherBand(const Receivers& receivers) {
     const size_t points = receivers.points.size(), length = lights_->runLength();
     while (at_.point < points) {
-      const size_t end = std::min<size_t>(at_.point + length, points);
+      const size_t end = endOfRun(receivers, at_.point, length, plan_);
       const bool whole = at_.point == 0 && end == points;
       if (!gatherRun(whole ? receivers : slice(receivers, at_.point, end))) return false;
       at_.point = end;
@@ -247,7 +251,9 @@ class VirtualLightRender {
     shape.x0 = film_.x0, shape.y0 = film_.y0;
     shape.width = film_.width, shape.height = film_.height;
     const auto [y0, y1] = plan_.rows(at_.band, film_);
-    return traceReceivers(tracer_, emitters_, camera_, plan_.eye, y0, y1, shape, context_);
+    return traceTogether(plan_, [&](const EyeSettings& eye) {
+      return traceReceivers(tracer_, emitters_, camera_, eye, y0, y1, shape, context_);
+    });
   }
 
   void finish() {
@@ -259,14 +265,16 @@ class VirtualLightRender {
         const auto [y0, y1] = plan_.rows(at_.band, film_);
         backup_->restore(y0, y1);
       }
-      variance_->afterSample(samples);
+      variance_->afterSamples(samples, plan_.samplesEnd(at_.sample) - at_.sample);
       if (!context_.cancelled() &&
           std::find(rowSamples_.begin(), rowSamples_.end(), 0) != rowSamples_.end()) {
         context_.warning("--time-limit ended before every pixel had a sample; these have alpha 0");
       }
     }
     finishPartial(film_, rowSamples_, samples);
-    variance_->finish(rowSamples_, samples);
+    std::vector<int> rowGroups;
+    for (const int rows : rowSamples_) rowGroups.push_back(plan_.groupsOf(rows));
+    variance_->finish(rowSamples_, rowGroups, samples);
   }
 
   static constexpr const char* kStage = "virtual lights";

@@ -63,7 +63,8 @@ class LightReplay {
     gather_ = plan_.gather;
     gather_.onlyPixel = pixel_;
     const int row = static_cast<int>(pixel_) / film_.width;
-    for (int sample = 0; sample < plan_.eye.sampleCount && !context_.cancelled(); ++sample) {
+    for (int sample = 0; sample < plan_.eye.sampleCount && !context_.cancelled();
+         sample = plan_.samplesEnd(sample)) {
       if (plan_.set(sample) != set_) useLights(plan_.set(sample), obtain(plan_.set(sample)));
       plan_.eye.sample = sample;
       renderSample(sample, row / plan_.bandRows);
@@ -91,19 +92,22 @@ class LightReplay {
   void renderSample(int sample, int band) {
     const auto [y0, y1] = plan_.rows(band, film_);
     const Rgb direct = film_.rgb(pixel_, "direct"), indirect = film_.rgb(pixel_, "indirect");
-    const Receivers receivers =
-        traceReceivers(run_.tracer, run_.emitters, camera_, plan_.eye, y0, y1, film_, context_);
+    const Receivers receivers = traceTogether(plan_, [&](const EyeSettings& eye) {
+      return traceReceivers(run_.tracer, run_.emitters, camera_, eye, y0, y1, film_, context_);
+    });
     const bool shown = all_ || sample < kReplaySamples;
     if (shown) {
-      fmt::print("sample {}  of light set {} ({})\n  eye pass: direct {}  indirect {}\n", sample,
-                 set_, lightsText(), text(film_.rgb(pixel_, "direct") - direct),
+      const int last = plan_.samplesEnd(sample) - 1;
+      fmt::print("sample {}{}  of light set {} ({})\n  eye pass: direct {}  indirect {}\n", sample,
+                 last > sample ? fmt::format(" to {}", last) : "", set_, lightsText(),
+                 text(film_.rgb(pixel_, "direct") - direct),
                  text(film_.rgb(pixel_, "indirect") - indirect));
     }
     addOwn(receivers, shown);
     if (photons_) return;
     const size_t points = receivers.points.size(), length = lights_->runLength();
-    for (size_t begin = 0; begin < points; begin += length) {
-      const size_t end = std::min(begin + length, points);
+    for (size_t begin = 0, end = 0; begin < points; begin = end) {
+      end = endOfRun(receivers, begin, length, plan_);
       gatherRun(begin == 0 && end == points ? receivers : slice(receivers, begin, end), shown);
     }
   }

@@ -66,26 +66,29 @@ VarianceMeter::VarianceMeter(Film& film) : film_(film), used_(film.layers.contai
   squares_.assign(film.pixelCount() * 3, 0.);
 }
 
-void VarianceMeter::afterSample(int sampleCount) {
+void VarianceMeter::afterSamples(int sampleCount, int count) {
   if (!used_) return;
   const auto& d = film_.layers.at("direct").values;
   const auto& i = film_.layers.at("indirect").values;
   for (size_t k = 0; k < previous_.size(); ++k) {
     const double sample = static_cast<double>(d[k] + i[k] - previous_[k]) * sampleCount;
-    squares_[k] += sample * sample;
+    squares_[k] += sample * sample / count;
     previous_[k] = d[k] + i[k];
   }
 }
 
-void VarianceMeter::finish(const std::vector<int>& rowSamples, int sampleCount) {
+// Groups of samples have the variance of one over their number.
+void VarianceMeter::finish(const std::vector<int>& rowSamples, const std::vector<int>& rowGroups,
+                           int sampleCount) {
   if (!used_) return;
   auto& out = film_.layers.at("variance").values;
   const size_t row = static_cast<size_t>(film_.width) * 3;
   for (size_t k = 0; k < out.size(); ++k) {
     const double n = rowSamples[k / row];
-    if (n < 2) continue;
+    const int groups = rowGroups[k / row];
+    if (groups < 2) continue;
     const double mean = static_cast<double>(previous_[k]) * sampleCount / n;
-    out[k] = static_cast<float>(std::max(squares_[k] / n - mean * mean, 0.) / (n - 1));
+    out[k] = static_cast<float>(std::max(squares_[k] / n - mean * mean, 0.) / (groups - 1));
   }
 }
 

@@ -38,9 +38,11 @@ void finishPartial(Film& film, const std::vector<int>& rowSamples, int sampleCou
 class VarianceMeter {
  public:
   explicit VarianceMeter(Film& film);
-  void afterSample(int sampleCount);
-  // rowSamples: how many samples every row got.
-  void finish(const std::vector<int>& rowSamples, int sampleCount);
+  // count: of samples since the last call, whose mean then counts as one value.
+  void afterSamples(int sampleCount, int count);
+  // rowSamples, rowGroups: how many samples every row got, in how many calls.
+  void finish(const std::vector<int>& rowSamples, const std::vector<int>& rowGroups,
+              int sampleCount);
   void addFields(StateFields& state);
 
  private:

@@ -97,9 +97,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
     json["gather"]["slices"] = slicesOf(options);
     json["gather"]["columns"] = sliceColumnsOf(options);
   }
-  const bool cuts =
-      options.gather == "sglc" || options.gather == "lightcuts" || options.gather == "stochastic";
-  if (gathers && cuts && !pairs) json["gather"]["cut_size"] = cutSizeOf(options);
+  if (gathers && hasCutSize(options)) json["gather"]["cut_size"] = cutSizeOf(options);
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
   json["seconds"] = secondsJson(s);
   json["counts"] = {{"shadow_rays", s.count("shadow_rays")},

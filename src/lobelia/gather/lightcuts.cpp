@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "lobelia/base/parallel.h"
-#include "lobelia/base/random.h"
 #include "lobelia/gather/chosen_gather.h"
 #include "lobelia/gather/light_range.h"
 
@@ -39,7 +38,7 @@ class Lightcuts::PointGather {
     for (const CutNode& node : refinement_.cut())
       sum += Vec3d{double{node.value.x}, double{node.value.y}, double{node.value.z}};
     tally_.lights += refinement_.cut().size();
-    tally_.clusteredLights += cuts_.lightCount_;
+    tally_.clusteredLights += cuts_.representatives_.lightCount();
     ++tally_.clusters, ++tally_.clusteredReceivers;
     if (values_.nonfinite != bad) tally_.noteBad(receivers_.points[point].pixel);
     tally_.traverseNs += nanosecondsNow() - start - (tally_.visibilityNs + tally_.shadeNs - traced);
@@ -66,15 +65,13 @@ class Lightcuts::PointGather {
 
  private:
   uint32_t leafOf(const CutNode& node) const {
-    return cuts_.representatives_[node.tree][node.node];
+    return cuts_.representatives_.leaf(node.tree, node.node);
   }
   uint32_t lightOf(const CutNode& node) const {
-    const LightForest::Tree& tree = cuts_.forest_.trees[node.tree];
-    return tree.lights[tree.tree.nodes()[leafOf(node)].first];
+    return cuts_.representatives_.light(node.tree, node.node);
   }
   float scaleOf(const CutNode& node) const {
-    const float own = luminance(cuts_.forest_.trees[node.tree].power[leafOf(node)]);
-    return leafOf(node) != node.node && own > 0 ? node.power / own : 1.f;
+    return cuts_.representatives_.scale(node.tree, node.node);
   }
 
   void evaluate(std::span<CutNode> fresh, std::span<const CutNode> parents) {
@@ -133,27 +130,7 @@ Lightcuts::Lightcuts(const Tracer& tracer, const VirtualLights& lights,
       spheres_(prepareSpheres(lights, tracer.scene())) {
   const StageTimer timer(context, "trees");
   forest_ = plantLights(lights, settings.gather, 1, tracer.scene(), tracer.bounds(), spheres_);
-  chooseRepresentatives();
-}
-
-// Bottom-up: children come after their parent.
-void Lightcuts::chooseRepresentatives() {
-  for (size_t t = 0; t < forest_.trees.size(); ++t) {
-    const LightForest::Tree& tree = forest_.trees[t];
-    const auto nodes = tree.tree.nodes();
-    std::vector<uint32_t>& chosen = representatives_.emplace_back(nodes.size());
-    const uint64_t seed = hashCombine(settings_.seed, t);
-    for (uint32_t i = static_cast<uint32_t>(nodes.size()); i-- > 0;) {
-      chosen[i] = i;
-      if (nodes[i].leaf()) continue;
-      const uint32_t left = tree.tree.left(i), right = tree.tree.right(i);
-      const double a = double{luminance(tree.power[left])},
-                   b = double{luminance(tree.power[right])};
-      const double u = static_cast<double>(hashCombine(seed, i) >> 11) * 0x1p-53;
-      chosen[i] = chosen[u * (a + b) < a || !(b > 0) ? left : right];
-    }
-    lightCount_ += tree.lights.size();
-  }
+  representatives_ = Representatives(forest_, settings_.seed);
 }
 
 void Lightcuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,

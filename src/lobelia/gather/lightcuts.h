@@ -12,6 +12,7 @@
 
 #include "lobelia/gather/cut_refinement.h"
 #include "lobelia/gather/prepared_gather.h"
+#include "lobelia/gather/representatives.h"
 #include "lobelia/trace/tracer.h"
 
 namespace lobelia::gather {
@@ -37,16 +38,13 @@ class Lightcuts : public PreparedGather {
 
  private:
   class PointGather;
-  void chooseRepresentatives();
 
   const Tracer& tracer_;
   const VirtualLights& lights_;
   const LightcutsSettings settings_;
   std::vector<PreparedSphere> spheres_;
   LightForest forest_;
-  size_t lightCount_ = 0;
-  // By tree and node: the leaf that stands for it.
-  std::vector<std::vector<uint32_t>> representatives_;
+  Representatives representatives_;
 };
 
 }  // namespace lobelia::gather

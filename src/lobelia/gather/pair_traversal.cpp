@@ -28,6 +28,17 @@ float spreadOf(const BoundNode& node, bool gaussian, bool normals) {
 
 }  // namespace
 
+bool lightsExtendFurther(const BoundNode& p, bool glossy, const BoundNode& q,
+                         LightClass lightClass) {
+  const bool gaussian = lightClass != LightClass::omni && lightClass != LightClass::diffuse;
+  const float spreadP = spreadOf(p, glossy, true);
+  const float spreadQ = spreadOf(q, gaussian && q.energy > 0, lightClass == LightClass::diffuse);
+  // Directional lights: places of receivers do not matter to them.
+  if (lightClass == LightClass::directional) return spreadQ >= spreadP;
+  const float d = length(q.centre - p.centre);
+  return q.radius + d * spreadQ >= p.radius + d * spreadP;
+}
+
 std::vector<uint32_t> nodesOfLevel(const trees::BoundTree& tree, int level) {
   std::vector<uint32_t> nodes;
   addLevel(tree, 0, level, &nodes);
@@ -98,14 +109,7 @@ bool refinesLights(const trees::BoundTree& receivers, bool glossy, const LightFo
   const BoundNode& p = receivers.nodes()[pair.receivers];
   const BoundNode& q = lights.tree.nodes()[pair.lights];
   if (p.leaf() || q.leaf()) return p.leaf();
-  const LightClass lightClass = lights.lightClass;
-  const bool gaussian = lightClass != LightClass::omni && lightClass != LightClass::diffuse;
-  const float spreadP = spreadOf(p, glossy, true);
-  const float spreadQ = spreadOf(q, gaussian && q.energy > 0, lightClass == LightClass::diffuse);
-  // Directional lights: places of receivers do not matter to them.
-  if (lightClass == LightClass::directional) return spreadQ >= spreadP;
-  const float d = length(q.centre - p.centre);
-  return q.radius + d * spreadQ >= p.radius + d * spreadP;
+  return lightsExtendFurther(p, glossy, q, lights.lightClass);
 }
 
 void splitPair(const trees::BoundTree& receivers, const LightForest::Tree& lights,

@@ -92,6 +92,11 @@ class PairTraversal {
   size_t bounded_ = 0;
 };
 
+// Does a node of lights extend further than one of receivers, by places and by the directions in
+// which it sends? glossy: have the receivers Gaussians?
+bool lightsExtendFurther(const trees::BoundNode& receivers, bool glossy,
+                         const trees::BoundNode& lights, LightClass lightClass);
+
 // Nodes of a tree at a level below the root (0), and leaves above it.
 std::vector<uint32_t> nodesOfLevel(const trees::BoundTree& tree, int level);
 

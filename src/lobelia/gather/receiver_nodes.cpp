@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lobelia/lobes/spherical_gaussian.h"
+
 namespace lobelia::gather {
 namespace {
 
@@ -110,15 +112,57 @@ class Envelope {
   const bool above_, below_;
 };
 
-}  // namespace
+// The side on which light counts.
+struct Sides {
+  bool above, below;
+  Sides(const PointStrip& strip, size_t lane)
+      : above(strip.above[lane] > 0), below(strip.below[lane] > 0) {}
+};
 
-ReceiverNodes receiverNodes(const Receivers& receivers, size_t point, const PointStrip& strip) {
+Envelope envelopeOf(const Receivers& receivers, size_t point, Sides sides) {
   const ReceiverPoint& at = receivers.points[point];
-  const bool above = strip.above[0] > 0, below = strip.below[0] > 0;
-  const Envelope envelope(receiverBsdf(receivers, at), at.wo, above, below);
+  return Envelope(receiverBsdf(receivers, at), at.wo, sides.above, sides.below);
+}
+
+// Without lobes.
+trees::BoundItem placeOf(const ReceiverPoint& at, Sides sides) {
   trees::BoundItem item;
   item.p = at.p;
-  if (above != below) item.n = above ? at.frame.n : -at.frame.n;
+  if (sides.above != sides.below) item.n = sides.above ? at.frame.n : -at.frame.n;
+  return item;
+}
+
+void addGaussians(const Envelope& envelope, trees::BoundItem* item) {
+  item->gaussianCount = envelope.count;
+  for (int i = 0; i < envelope.count; ++i) {
+    const PreparedSphere::Gaussian& g = envelope.gaussians[i];
+    item->gaussians[i] = {g.axis, g.sharpness, g.amplitude};
+  }
+}
+
+}  // namespace
+
+trees::BoundItem receiverItem(const Receivers& receivers, size_t point, const PointStrip& strip,
+                              size_t lane) {
+  const Sides sides(strip, lane);
+  const Envelope envelope = envelopeOf(receivers, point, sides);
+  trees::BoundItem item = placeOf(receivers.points[point], sides);
+  item.cosine = envelope.diffuse;
+  addGaussians(envelope, &item);
+  const float diffuse = kPi * envelope.diffuse;
+  float glossy = 0;
+  for (int i = 0; i < envelope.count; ++i)
+    glossy += envelope.gaussians[i].amplitude * lobes::integral(envelope.gaussians[i].sharpness);
+  if (diffuse + glossy > 0)
+    item.mean =
+        (diffuse * envelope.diffuseMean + glossy * envelope.glossyMean) / (diffuse + glossy);
+  return item;
+}
+
+ReceiverNodes receiverNodes(const Receivers& receivers, size_t point, const PointStrip& strip) {
+  const Sides sides(strip, 0);
+  const Envelope envelope = envelopeOf(receivers, point, sides);
+  trees::BoundItem item = placeOf(receivers.points[point], sides);
   item.cosine = envelope.diffuse;
   item.mean = envelope.diffuseMean;
   ReceiverNodes nodes;
@@ -127,11 +171,7 @@ ReceiverNodes receiverNodes(const Receivers& receivers, size_t point, const Poin
   if (!nodes.glossy) return nodes;
   item.cosine = 0;
   item.mean = envelope.glossyMean;
-  item.gaussianCount = envelope.count;
-  for (int i = 0; i < envelope.count; ++i) {
-    const PreparedSphere::Gaussian& g = envelope.gaussians[i];
-    item.gaussians[i] = {g.axis, g.sharpness, g.amplitude};
-  }
+  addGaussians(envelope, &item);
   nodes.gaussians = trees::leafOf(item, 0);
   return nodes;
 }

@@ -14,6 +14,11 @@
 
 namespace lobelia::gather {
 
+// All lobes of receiver `point`, without its weight: their cosine lobe and Gaussians. strip: it is
+// the strip's `lane`.
+trees::BoundItem receiverItem(const Receivers& receivers, size_t point, const PointStrip& strip,
+                              size_t lane);
+
 struct ReceiverNodes {
   trees::BoundNode cosine, gaussians;  // without weight
   bool glossy = false;                 // has Gaussians

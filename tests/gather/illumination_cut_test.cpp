@@ -1,0 +1,174 @@
+// IlluminationCut against the sum over all lights.
+#include "lobelia/gather/illumination_cut.h"
+
+#include "gather/lit_corner.h"
+#include "gather/strategy_test.h"
+
+namespace lobelia {
+namespace {
+
+using namespace gather;
+using namespace test;
+
+class IlluminationCutGather : public StrategyTest {
+ protected:
+  std::unique_ptr<PreparedGather> prepare(uint64_t seed) override {
+    settings_.gather = gather_;
+    settings_.seed = seed;
+    return std::make_unique<IlluminationCut>(*use_, lights_, settings_, context_);
+  }
+  std::vector<Rgb> sum() {
+    std::vector<Rgb> radiance(receivers_.points.size());
+    gatherAll(*use_, receivers_, lights_, gather_, radiance, context_);
+    return radiance;
+  }
+  template <class F>
+  uint64_t growth(const char* name, const F& f) {
+    const uint64_t before = context_.statistics.count(name);
+    f();
+    return context_.statistics.count(name) - before;
+  }
+  IlluminationCutSettings settings_;
+  const Tracer* use_ = &tracer_;
+};
+
+class IlluminationCutOfWalls : public IlluminationCutGather {
+ protected:
+  IlluminationCutOfWalls() {
+    receivers_ = randomReceivers(9000, {LobeType::lambert, LobeType::phong}, 1, 3);
+    layOnFloor(&receivers_, 5);
+    for (size_t i = 0; i < receivers_.points.size(); ++i)
+      receivers_.points[i].pixel = static_cast<uint32_t>(i);
+    lights_ = wallOfLights(2000, 5);
+    gather_.clamp = 0;
+    use_ = &corner_;
+  }
+  Scene triangles_ = trianglesAboveFloor();
+  Tracer corner_{triangles_, context_};
+};
+
+TEST_F(IlluminationCutGather, ThresholdZeroIsTheSum) {
+  settings_.threshold = 0;
+  expectSum(some(), sum());
+  gather_.clamp = 0;
+  gather_.maxDepth = 4;
+  expectSum(some(), sum());
+}
+
+TEST_F(IlluminationCutGather, ThresholdZeroOfSeveralLobesAndDepths) {
+  receivers_ = randomReceivers(200,
+                               {LobeType::lambert, LobeType::phong, LobeType::microfacetReflection,
+                                LobeType::microfacetTransmission, LobeType::diffuseTransmission},
+                               3, 9);
+  settings_.threshold = 0;
+  gather_.maxDepth = 4;
+  gather_.direct = false;
+  expectSum(some(), sum());
+}
+
+// Every class of lights by itself keeps to the sum where lights stand for others, too.
+TEST_F(IlluminationCutGather, EveryClassAlone) {
+  settings_.threshold = 0.01;
+  const VirtualLights lights = lights_;
+  for (const LightClass lightClass :
+       {LightClass::omni, LightClass::directional, LightClass::diffuse, LightClass::glossy}) {
+    lights_ = lights;
+    if (lightClass != LightClass::omni) lights_.omni.clear();
+    if (lightClass != LightClass::directional) lights_.directional.clear();
+    if (lightClass != LightClass::diffuse)
+      lights_.diffuse.clear(), lights_.diffuseDepthEnds.clear();
+    if (lightClass != LightClass::glossy) lights_.glossy.clear(), lights_.glossyDepthEnds.clear();
+    EXPECT_LT(relativeError(some(), sum()), 0.03) << static_cast<int>(lightClass);
+  }
+}
+
+// Lights whose directions have a pattern stand for themselves, at any threshold.
+TEST_F(IlluminationCutGather, SpotsKeepTheirPattern) {
+  Emitter spot;
+  spot.type = EmitterType::spot;
+  spot.cutoff = 1.2f;
+  spot.beamWidth = 0.3f;
+  scene_.emitters = {spot};
+  const Tracer tracer(scene_, context_);
+  use_ = &tracer;
+  lights_ = {};
+  Rng rng(2);
+  for (int i = 0; i < 40; ++i) lights_.omni.push_back({randomPoint(&rng, 1), randomColor(&rng), 0});
+  settings_.threshold = 0.5;
+  expectSum(some(), sum());
+}
+
+TEST_F(IlluminationCutOfWalls, SmallerThresholdsComeNearer) {
+  const std::vector<Rgb> exact = sum();
+  double error = 1;
+  uint64_t rays = 0;
+  for (const double threshold : {0.1, 0.02, 0.004}) {
+    settings_.threshold = threshold;
+    std::vector<Rgb> light;
+    const uint64_t more = growth("shadow_rays", [&] { light = some(); });
+    EXPECT_LT(relativeError(light, exact), 0.8 * error) << threshold;
+    EXPECT_NEAR(total(light), total(exact), 0.05 * total(exact)) << threshold;
+    EXPECT_GT(more, rays) << threshold;
+    error = relativeError(light, exact), rays = more;
+  }
+  EXPECT_LT(error, 0.03);
+  EXPECT_LT(rays, receivers_.points.size() * lights_.size() / 3);
+}
+
+TEST_F(IlluminationCutOfWalls, FewRaysDoForManyReceivers) {
+  settings_.threshold = 0.02;
+  const std::vector<Rgb> exact = sum();
+  std::vector<Rgb> few, full;
+  const uint64_t fewRays = growth("shadow_rays", [&] { few = some(); });
+  settings_.sampled = false;
+  const uint64_t fullRays = growth("shadow_rays", [&] { full = some(); });
+  EXPECT_LT(fewRays, fullRays * 4 / 5);
+  EXPECT_LT(relativeError(few, exact), 2 * relativeError(full, exact) + 0.01);
+  EXPECT_FALSE(few == full);
+}
+
+// Without bounds of 0 each light and receiver is in one pair.
+TEST_F(IlluminationCutOfWalls, EachLightAndReceiverOnce) {
+  const uint64_t whole = receivers_.points.size() * lights_.size();
+  for (const double threshold : {0.0, 0.01, 0.3}) {
+    settings_.threshold = threshold;
+    const uint64_t covered = growth("clustered_lights", [&] { some(); });
+    EXPECT_LE(covered, whole) << threshold;
+    EXPECT_GT(covered, whole / 2) << threshold << ": what faces each other";
+  }
+}
+
+// With one light below a node the node's light is that of all; in the mean over representatives
+// the cut has the sum's light.
+TEST_F(IlluminationCutOfWalls, IsUnbiasedOverRepresentativesWithAllRays) {
+  lights_ = wallOfLights(150, 5);
+  receivers_.points.resize(1500);
+  settings_.threshold = 0.05;
+  settings_.sampled = false;
+  expectUnbiased(sum(), 60, [&](uint64_t draw) { return some(draw); });
+}
+
+TEST_F(IlluminationCutOfWalls, ThreadsDoNotMatterAndSeedsDo) {
+  settings_.threshold = 0.05;
+  expectSameForAnyThreads();
+}
+
+TEST_F(IlluminationCutGather, PartsAddUp) {
+  settings_.threshold = 0.05;
+  expectPartsAddUp();
+}
+
+TEST_F(IlluminationCutGather, NothingWhenCancelled) {
+  context_.cancel();
+  EXPECT_EQ(total(some()), 0);
+}
+
+TEST_F(IlluminationCutGather, NoLightsNoReceivers) {
+  lights_ = {};
+  EXPECT_EQ(total(some()), 0);
+  receivers_ = {};
+  EXPECT_TRUE(some().empty());
+}
+
+}  // namespace
+}  // namespace lobelia
