@@ -17,7 +17,7 @@ class IlluminationCutGather : public StrategyTest {
     settings_.seed = seed;
     return std::make_unique<IlluminationCut>(*use_, lights_, settings_, context_);
   }
-  std::vector<Rgb> sum() {
+  std::vector<Rgb> all() {
     std::vector<Rgb> radiance(receivers_.points.size());
     gatherAll(*use_, receivers_, lights_, gather_, radiance, context_);
     return radiance;
@@ -49,10 +49,10 @@ class IlluminationCutOfWalls : public IlluminationCutGather {
 
 TEST_F(IlluminationCutGather, ThresholdZeroIsTheSum) {
   settings_.threshold = 0;
-  expectSum(some(), sum());
+  expectEqual(some(), all());
   gather_.clamp = 0;
   gather_.maxDepth = 4;
-  expectSum(some(), sum());
+  expectEqual(some(), all());
 }
 
 TEST_F(IlluminationCutGather, ThresholdZeroOfSeveralLobesAndDepths) {
@@ -63,7 +63,7 @@ TEST_F(IlluminationCutGather, ThresholdZeroOfSeveralLobesAndDepths) {
   settings_.threshold = 0;
   gather_.maxDepth = 4;
   gather_.direct = false;
-  expectSum(some(), sum());
+  expectEqual(some(), all());
 }
 
 // Every class of lights by itself keeps to the sum where lights stand for others, too.
@@ -78,7 +78,7 @@ TEST_F(IlluminationCutGather, EveryClassAlone) {
     if (lightClass != LightClass::diffuse)
       lights_.diffuse.clear(), lights_.diffuseDepthEnds.clear();
     if (lightClass != LightClass::glossy) lights_.glossy.clear(), lights_.glossyDepthEnds.clear();
-    EXPECT_LT(relativeError(some(), sum()), 0.03) << static_cast<int>(lightClass);
+    EXPECT_LT(relativeError(some(), all()), 0.03) << static_cast<int>(lightClass);
   }
 }
 
@@ -95,11 +95,11 @@ TEST_F(IlluminationCutGather, SpotsKeepTheirPattern) {
   Rng rng(2);
   for (int i = 0; i < 40; ++i) lights_.omni.push_back({randomPoint(&rng, 1), randomColor(&rng), 0});
   settings_.threshold = 0.5;
-  expectSum(some(), sum());
+  expectEqual(some(), all());
 }
 
 TEST_F(IlluminationCutOfWalls, SmallerThresholdsComeNearer) {
-  const std::vector<Rgb> exact = sum();
+  const std::vector<Rgb> exact = all();
   double error = 1;
   uint64_t rays = 0;
   for (const double threshold : {0.1, 0.02, 0.004}) {
@@ -107,7 +107,7 @@ TEST_F(IlluminationCutOfWalls, SmallerThresholdsComeNearer) {
     std::vector<Rgb> light;
     const uint64_t more = growth("shadow_rays", [&] { light = some(); });
     EXPECT_LT(relativeError(light, exact), 0.8 * error) << threshold;
-    EXPECT_NEAR(total(light), total(exact), 0.05 * total(exact)) << threshold;
+    EXPECT_NEAR(sum(light), sum(exact), 0.05 * sum(exact)) << threshold;
     EXPECT_GT(more, rays) << threshold;
     error = relativeError(light, exact), rays = more;
   }
@@ -117,7 +117,7 @@ TEST_F(IlluminationCutOfWalls, SmallerThresholdsComeNearer) {
 
 TEST_F(IlluminationCutOfWalls, FewRaysDoForManyReceivers) {
   settings_.threshold = 0.02;
-  const std::vector<Rgb> exact = sum();
+  const std::vector<Rgb> exact = all();
   std::vector<Rgb> few, full;
   const uint64_t fewRays = growth("shadow_rays", [&] { few = some(); });
   settings_.sampled = false;
@@ -145,7 +145,7 @@ TEST_F(IlluminationCutOfWalls, IsUnbiasedOverRepresentativesWithAllRays) {
   receivers_.points.resize(1500);
   settings_.threshold = 0.05;
   settings_.sampled = false;
-  expectUnbiased(sum(), 60, [&](uint64_t draw) { return some(draw); });
+  expectUnbiased(all(), 60, [&](uint64_t draw) { return some(draw); });
 }
 
 TEST_F(IlluminationCutOfWalls, ThreadsDoNotMatterAndSeedsDo) {
@@ -160,12 +160,12 @@ TEST_F(IlluminationCutGather, PartsAddUp) {
 
 TEST_F(IlluminationCutGather, NothingWhenCancelled) {
   context_.cancel();
-  EXPECT_EQ(total(some()), 0);
+  EXPECT_EQ(sum(some()), 0);
 }
 
 TEST_F(IlluminationCutGather, NoLightsNoReceivers) {
   lights_ = {};
-  EXPECT_EQ(total(some()), 0);
+  EXPECT_EQ(sum(some()), 0);
   receivers_ = {};
   EXPECT_TRUE(some().empty());
 }

@@ -162,7 +162,7 @@ TEST_F(LightSlice, MemoryCountsRowsAndClusters) {
   settings_.memory = 600 * 200;
   EXPECT_THROW(some(), UsageError);
   settings_.memory = 600 * 320;
-  EXPECT_GT(total(some()), 0);
+  EXPECT_GT(sum(some()), 0);
   const LightColumns rows = columnsFrom(scatteredVectors(40, 48, 5, 2), 0);
   const RowFactor factors[] = {{7, 1.f}, {2, 0.5f}, {3, 0.5f}, {4, 0.5f}, {5, 0.5f}, {6, 0.5f}};
   EXPECT_GT(rows.count * sliceBytes(std::size(factors)), columnsOfRows(rows, factors).bytes());

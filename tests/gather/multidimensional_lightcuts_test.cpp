@@ -24,7 +24,7 @@ class MultidimensionalGather : public StrategyTest {
     settings_.seed = seed;
     return std::make_unique<MultidimensionalLightcuts>(*use_, lights_, settings_, context_);
   }
-  std::vector<Rgb> sum() {
+  std::vector<Rgb> all() {
     std::vector<Rgb> radiance(receivers_.points.size());
     gatherAll(*use_, receivers_, lights_, gather_, radiance, context_);
     return radiance;
@@ -74,10 +74,10 @@ class MultidimensionalOfWalls : public MultidimensionalGather {
 TEST_F(MultidimensionalGather, WithoutAThresholdLargeCutsAreTheSum) {
   settings_.threshold = 0;
   settings_.cutSize = 100'000;
-  expectSum(some(), sum());
+  expectEqual(some(), all());
   gather_.clamp = 0;
   gather_.maxDepth = 4;
-  expectSum(some(), sum());
+  expectEqual(some(), all());
 }
 
 // In any order, with more receivers than one tree takes.
@@ -91,13 +91,13 @@ TEST_F(MultidimensionalGather, PixelsOfManyReceivers) {
                            receivers_.points.begin() + 200);
   settings_.threshold = 0;
   settings_.cutSize = 1'000'000;
-  expectSum(some(), sum());
+  expectEqual(some(), all());
   settings_.threshold = 0.005;
-  EXPECT_LT(relativeError(pixels(some()), pixels(sum())), 0.05);
+  EXPECT_LT(relativeError(pixels(some()), pixels(all())), 0.05);
 }
 
 TEST_F(MultidimensionalOfWalls, SmallerThresholdsComeNearerAtMorePairs) {
-  const std::vector<Rgb> exact = pixels(sum());
+  const std::vector<Rgb> exact = pixels(all());
   double error = 1;
   uint64_t pairs = 0, rays = 0;
   for (const double threshold : {0.2, 0.05, 0.01}) {
@@ -118,7 +118,7 @@ TEST_F(MultidimensionalOfWalls, SmallerThresholdsComeNearerAtMorePairs) {
 // What a pixel's samples share: at one threshold a cut of the pixel takes few more rays than one of
 // a single receiver.
 TEST_F(MultidimensionalOfWalls, APixelCostsLessThanItsReceivers) {
-  const std::vector<Rgb> exact = pixels(sum());
+  const std::vector<Rgb> exact = pixels(all());
   settings_.threshold = 0.02;
   settings_.cutSize = 10'000;
   std::vector<Rgb> whole, single(receivers_.points.size());
@@ -134,7 +134,7 @@ TEST_F(MultidimensionalOfWalls, CutsOfFixedSizeAreUnbiasedOverRepresentatives) {
   lights_ = wallOfLights(200, 5);
   settings_.threshold = 0;
   settings_.cutSize = 150;
-  expectUnbiased(sum(), 80, [&](uint64_t draw) { return some(draw); });
+  expectUnbiased(all(), 80, [&](uint64_t draw) { return some(draw); });
   EXPECT_EQ(context_.statistics.count("cut_lights"), 80u * 100 * 150);
 }
 
@@ -150,7 +150,7 @@ TEST_F(MultidimensionalGather, EveryClassAlone) {
     if (lightClass != LightClass::diffuse)
       lights_.diffuse.clear(), lights_.diffuseDepthEnds.clear();
     if (lightClass != LightClass::glossy) lights_.glossy.clear(), lights_.glossyDepthEnds.clear();
-    EXPECT_LT(relativeError(pixels(some()), pixels(sum())), 0.05) << static_cast<int>(lightClass);
+    EXPECT_LT(relativeError(pixels(some()), pixels(all())), 0.05) << static_cast<int>(lightClass);
   }
 }
 
@@ -160,7 +160,7 @@ TEST_F(MultidimensionalGather, WeightsMayBeNegative) {
     receivers_.points[i].weight = receivers_.points[i].weight * -0.1f;
   settings_.threshold = 0.01;
   settings_.cutSize = 10'000;
-  EXPECT_LT(relativeError(pixels(some()), pixels(sum())), 0.05);
+  EXPECT_LT(relativeError(pixels(some()), pixels(all())), 0.05);
 }
 
 // Of gray lights and receivers: what a pair of nodes sends is below its bound.
@@ -222,12 +222,12 @@ TEST_F(MultidimensionalGather, PartsAddUp) { expectPartsAddUp(); }
 
 TEST_F(MultidimensionalGather, NothingWhenCancelled) {
   context_.cancel();
-  EXPECT_EQ(total(some()), 0);
+  EXPECT_EQ(sum(some()), 0);
 }
 
 TEST_F(MultidimensionalGather, NoLightsNoReceivers) {
   lights_ = {};
-  EXPECT_EQ(total(some()), 0);
+  EXPECT_EQ(sum(some()), 0);
   receivers_ = {};
   EXPECT_TRUE(some().empty());
 }

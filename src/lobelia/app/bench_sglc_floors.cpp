@@ -108,7 +108,7 @@ class Samples {
     CutScratch scratch;
     std::vector<CutLight> drawn;
     drawCutLights(cutReceivers(sample->tile, clusters_.receivers), cluster.representatives, trees_,
-                  CutSettings(), hashCombine(kStream, cluster.begin), &scratch, &drawn);
+                  {}, CutSettings(), hashCombine(kStream, cluster.begin), &scratch, &drawn);
     for (const LightClass lightClass : kLightClasses) {
       std::vector<uint32_t> indices;
       for (const CutLight& light : drawn) {

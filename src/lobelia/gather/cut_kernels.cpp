@@ -42,6 +42,14 @@ class Importance {
     }
     if (sum > 0 && 1 / sum < kInfinityF) scale_ = 1 / sum;
   }
+  // On the scale of another one.
+  Importance(const g::CutReceivers& receivers, int representatives, float floor, float scale)
+      : receivers_(g::representatives(receivers, representatives)),
+        each_(static_cast<size_t>(representatives)),
+        shift_(std::countr_zero(each_)),
+        floor_(floor),
+        scale_(scale) {}
+  float scale() const { return scale_; }
 
   // values, priorities: of each node; the latter the same times the relative deviation of what the
   // node's lights contribute, roughly.
@@ -85,8 +93,8 @@ class Importance {
   const g::CutReceivers receivers_;
   const size_t each_;
   const int shift_;  // by which a lane is divided by each_
-  const Vf floor_;
-  Vf scale_ = 1;
+  const float floor_;
+  float scale_ = 1;
   NodeTable table_;
   size_t evaluations_ = 0;
 };
@@ -160,11 +168,17 @@ class CutGrowth {
 class Descents {
  public:
   Descents(const LightTree& tree, std::span<const Entry> entries, uint64_t seed,
-           Importance* importance, std::vector<g::CutLight>* drawn)
-      : tree_(tree), entries_(entries), seed_(seed), importance_(*importance), drawn_(*drawn) {}
+           std::span<const g::DominantLights::Leaf> dominant, Importance* importance,
+           std::vector<g::CutLight>* drawn)
+      : tree_(tree),
+        entries_(entries),
+        dominant_(dominant),
+        seed_(seed),
+        importance_(*importance),
+        drawn_(*drawn) {}
 
   // Appends the lights of the entries, all of one tree, in their order. A node none of whose lights
-  // contributes leaves none.
+  // contributes leaves none, nor does one of whose lights a dominant one is drawn.
   void run(std::vector<g::CutLight>* lights) {
     drawn_.assign(entries_.size(), {0, 0, 0});
     for (refill(); count_ > 0; refill()) step();
@@ -193,6 +207,9 @@ class Descents {
   void keep(const Descent& at) {
     const LightNode& node = tree_.nodes()[at.node];
     if (node.leaf()) {
+      if (std::binary_search(dominant_.begin(), dominant_.end(),
+                             g::DominantLights::Leaf{entries_[at.entry].tree, at.node}))
+        return;
       const float probability = static_cast<float>(at.probability);
       drawn_[at.entry] = {tree_.light(node.link), probability, at.importance / probability};
       return;
@@ -235,6 +252,7 @@ class Descents {
 
   const LightTree& tree_;
   const std::span<const Entry> entries_;
+  const std::span<const g::DominantLights::Leaf> dominant_;
   const uint64_t seed_;
   Importance& importance_;
   std::vector<g::CutLight>& drawn_;
@@ -242,26 +260,71 @@ class Descents {
   size_t count_ = 0, next_ = 0;
 };
 
+// What all entries of a cut contribute.
+float sumOf(std::span<const Entry> cut) {
+  float sum = 0;
+  for (const Entry& entry : cut) sum += entry.importance;
+  return sum;
+}
+
+// Of the leaves, those that make at least a share of the whole by their own lobes; appends them.
+size_t keepDominant(const g::CutReceivers& receivers, std::span<const LightTree> trees,
+                    std::span<const g::DominantLights::Leaf> leaves, float scale, float least,
+                    std::vector<g::DominantLights::Leaf>* dominant,
+                    std::vector<g::CutLight>* lights) {
+  dominant->clear();
+  if (leaves.empty()) return 0;
+  Importance exact(receivers, g::kStrip, 0, scale);
+  constexpr size_t kAtOnce = 16;
+  for (size_t begin = 0; begin < leaves.size(); begin += kAtOnce) {
+    const size_t count = std::min(kAtOnce, leaves.size() - begin);
+    const LightNode* nodes[kAtOnce];
+    float values[kAtOnce];
+    for (size_t i = 0; i < count; ++i)
+      nodes[i] = &trees[leaves[begin + i].tree].nodes()[leaves[begin + i].node];
+    exact.evaluate({nodes, count}, values);
+    for (size_t i = 0; i < count; ++i) {
+      if (!(values[i] >= least)) continue;
+      dominant->push_back(leaves[begin + i]);
+      lights->push_back({trees[leaves[begin + i].tree].light(nodes[i]->link), 1, values[i]});
+    }
+  }
+  return exact.evaluations();
+}
+
 size_t drawCutLights(const g::CutReceivers& receivers, int representatives,
-                     std::span<const LightTree> trees, const g::CutSettings& settings,
-                     uint64_t seed, g::CutScratch* scratch, std::vector<g::CutLight>* lights) {
+                     std::span<const LightTree> trees,
+                     std::span<const g::DominantLights::Leaf> dominant,
+                     const g::CutSettings& settings, uint64_t seed, g::CutScratch* scratch,
+                     std::vector<g::CutLight>* lights) {
   lights->clear();
   Importance importance(receivers, representatives, trees, settings.floor);
   CutGrowth(trees, &importance, scratch).run(settings.nodes);
   std::vector<Entry>& cut = scratch->done;
+  const float least = g::kDominant * sumOf(cut);
+  const size_t compared = keepDominant(receivers, trees, dominant, importance.scale(), least,
+                                       &scratch->dominant, lights);
   std::sort(cut.begin(), cut.end(), [](const Entry& a, const Entry& b) {
     return a.tree != b.tree ? a.tree < b.tree : a.node < b.node;
   });
   for (size_t begin = 0, end; begin < cut.size(); begin = end) {
     for (end = begin; end < cut.size() && cut[end].tree == cut[begin].tree;) ++end;
-    Descents(trees[cut[begin].tree], std::span(cut).subspan(begin, end - begin), seed, &importance,
-             &scratch->drawn)
+    Descents(trees[cut[begin].tree], std::span(cut).subspan(begin, end - begin), seed,
+             scratch->dominant, &importance, &scratch->drawn)
         .run(lights);
   }
   float all = 0;
   for (const g::CutLight& light : *lights) all += light.share;
   for (g::CutLight& light : *lights) light.share /= all;
-  return importance.evaluations();
+  return importance.evaluations() + compared;
+}
+
+float estimateAll(const g::CutReceivers& receivers, int representatives,
+                  std::span<const LightTree> trees, const g::CutSettings& settings, size_t nodes,
+                  g::CutScratch* scratch) {
+  Importance importance(receivers, representatives, trees, settings.floor);
+  CutGrowth(trees, &importance, scratch).run(nodes);
+  return sumOf(scratch->done) / importance.scale();
 }
 
 LOBELIA_CORE_END
@@ -269,15 +332,24 @@ LOBELIA_CORE_END
 #if HWY_ONCE
 namespace lobelia {
 HWY_EXPORT(drawCutLights);
+HWY_EXPORT(estimateAll);
 }  // namespace lobelia
 
 namespace lobelia::gather {
 
 size_t drawCutLights(const CutReceivers& receivers, int representatives,
-                     std::span<const trees::LightTree> trees, const CutSettings& settings,
+                     std::span<const trees::LightTree> trees,
+                     std::span<const DominantLights::Leaf> dominant, const CutSettings& settings,
                      uint64_t seed, CutScratch* scratch, std::vector<CutLight>* lights) {
-  return HWY_DYNAMIC_DISPATCH(lobelia::drawCutLights)(receivers, representatives, trees, settings,
-                                                      seed, scratch, lights);
+  return HWY_DYNAMIC_DISPATCH(lobelia::drawCutLights)(receivers, representatives, trees, dominant,
+                                                      settings, seed, scratch, lights);
+}
+
+float estimateAll(const CutReceivers& receivers, int representatives,
+                  std::span<const trees::LightTree> trees, const CutSettings& settings,
+                  size_t nodes, CutScratch* scratch) {
+  return HWY_DYNAMIC_DISPATCH(lobelia::estimateAll)(receivers, representatives, trees, settings,
+                                                    nodes, scratch);
 }
 
 }  // namespace lobelia::gather

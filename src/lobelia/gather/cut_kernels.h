@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lobelia/gather/cut_receivers.h"
+#include "lobelia/gather/dominant_lights.h"
 #include "lobelia/gather/kernels.h"
 #include "lobelia/trees/light_tree.h"
 
@@ -32,13 +33,24 @@ struct CutScratch {
   };
   std::vector<Entry> heap, done;
   std::vector<CutLight> drawn;
+  std::vector<DominantLights::Leaf> dominant;
 };
 
-// By one cut of several trees. The lights in the order of the trees' leaves, none twice. seed: of
-// what is drawn. representatives: of the receivers, by which lights are drawn below the cut's
-// nodes. Returns the number of nodes whose importance was computed.
+// A light that makes at least this share of what a cluster gets is not left to chance.
+inline constexpr float kDominant = 0.005f;
+
+// What the receivers get from all lights, roughly, by a cut of so few nodes.
+float estimateAll(const CutReceivers& receivers, int representatives,
+                  std::span<const trees::LightTree> trees, const CutSettings& settings,
+                  size_t nodes, CutScratch* scratch);
+
+// By one cut of several trees, no light twice. dominant: lights that may make much of what the
+// receivers get; those that do are taken as they are. seed: of what is drawn. representatives: of
+// the receivers, by which lights are drawn below the cut's nodes. Returns the number of nodes whose
+// importance was computed.
 size_t drawCutLights(const CutReceivers& receivers, int representatives,
-                     std::span<const trees::LightTree> trees, const CutSettings& settings,
+                     std::span<const trees::LightTree> trees,
+                     std::span<const DominantLights::Leaf> dominant, const CutSettings& settings,
                      uint64_t seed, CutScratch* scratch, std::vector<CutLight>* lights);
 
 // As keepVisible() for a tile of one strip, but by one ray per light, from one of the points that

@@ -114,4 +114,43 @@ CutReceivers representatives(const CutReceivers& receivers, int count) {
   return out;
 }
 
+CutReceivers peaks(const CutReceivers& receivers, int count) {
+  CutReceivers out = representatives(receivers, count);
+  const int size = kStrip / count;
+  const auto raise = [](float* value, float to) { *value = std::max(*value, to); };
+  for (int lane = 0; lane < kStrip; ++lane) {
+    if (!(receivers.weight[lane] > 0)) continue;
+    for (int to = lane / size; to < kStrip; to += count) {
+      raise(&out.diffuse[to], receivers.diffuse[lane]);
+      for (size_t i = 0; i < receivers.gaussianCount; ++i)
+        raise(&out.gaussians[i].amplitude[to], receivers.gaussians[i].amplitude[lane]);
+    }
+  }
+  return out;
+}
+
+void setLane(const CutReceivers& receivers, int lane, int to, CutReceivers* out) {
+  out->p.set(to, receivers.p.get(lane)), out->n.set(to, receivers.n.get(lane));
+  out->above[to] = receivers.above[lane], out->below[to] = receivers.below[lane];
+  out->diffuse[to] = receivers.diffuse[lane];
+  out->weight[to] = receivers.weight[lane];
+  out->variance[to] = receivers.variance[lane];
+  out->placeSlack[to] = receivers.placeSlack[lane];
+  out->normalSlack[to] = receivers.normalSlack[lane];
+  for (; out->gaussianCount < receivers.gaussianCount; ++out->gaussianCount) {
+    GaussianStrip& gaussian = out->gaussians[out->gaussianCount];
+    for (int i = 0; i < kStrip; ++i) {
+      gaussian.axis.set(i, {0, 0, 1});
+      gaussian.sharpness[i] = 1, gaussian.amplitude[i] = 0;
+    }
+  }
+  for (size_t i = 0; i < out->gaussianCount; ++i) {
+    GaussianStrip& gaussian = out->gaussians[i];
+    const bool has = i < receivers.gaussianCount;
+    if (has) gaussian.axis.set(to, receivers.gaussians[i].axis.get(lane));
+    if (has) gaussian.sharpness[to] = receivers.gaussians[i].sharpness[lane];
+    gaussian.amplitude[to] = has ? receivers.gaussians[i].amplitude[lane] : 0;
+  }
+}
+
 }  // namespace lobelia::gather

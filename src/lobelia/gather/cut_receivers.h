@@ -27,5 +27,10 @@ CutReceivers cutReceivers(const Tile& tile, const Receivers& receivers);
 // Lanes i, i + count and so on stand for the i-th run of kStrip / count of these receivers: where
 // they can see nothing of a light, none of the run can. count: a power of two, at most kStrip.
 CutReceivers representatives(const CutReceivers& receivers, int count);
+// The same, but as reflecting as the most reflecting receiver of a run, at its lobes' peaks.
+CutReceivers peaks(const CutReceivers& receivers, int count);
+// Makes lane `to` of *out a copy of a lane of these receivers. out: without Gaussians before the
+// first lane is set; it may come to hold receivers with fewer and with more of them.
+void setLane(const CutReceivers& receivers, int lane, int to, CutReceivers* out);
 
 }  // namespace lobelia::gather

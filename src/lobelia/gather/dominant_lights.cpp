@@ -17,7 +17,6 @@
 LOBELIA_CORE_BEGIN
 
 // A light on its way down a tree of targets.
-static const float FLO = getenv("FLO") ? float(atof(getenv("FLO"))) : .01f;
 class Reaching {
  public:
   explicit Reaching(const trees::LightNode& light)
@@ -43,7 +42,7 @@ class Reaching {
     uint32_t bits = 0;
     for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
       Vf relativeVariance;
-      const Vf value = nodeImportance(table_.at(lane), strip.receivers, lane, Vf(FLO), Vf(1.f),
+      const Vf value = nodeImportance(table_.at(lane), strip.receivers, lane, Vf(kFloor), Vf(1.f),
                                       &relativeVariance);
       bits |= maskBits(value >= Vf::load(strip.least + lane)) << lane;
     }
@@ -51,6 +50,8 @@ class Reaching {
   }
 
  private:
+  static constexpr float kFloor = 0.01f;  // as CutSettings::floor
+
   HWY_INLINE Mf mayReach(const g::BoundStrip& strip, size_t lane) const {
     const V3<Vf> d = load(strip.centre, lane) - broadcast(light_.centre);
     const Vf radius = Vf::load(strip.radius + lane);
@@ -74,8 +75,7 @@ class Reaching {
       intensity = Vf(light_.diffuse) * c;
     }
     if (light_.glossy > 0)
-      intensity +=
-          Vf(amplitude_) * exp(Vf(light_.sharpness) * (mostCosine(light_.axis) - Vf(1.f)));
+      intensity += Vf(amplitude_) * exp(Vf(light_.sharpness) * (mostCosine(light_.axis) - Vf(1.f)));
     return faces &
            (intensity >= Vf::load(strip.least + lane) * (nearest * nearest + Vf(light_.variance)));
   }
@@ -123,7 +123,7 @@ HWY_EXPORT(findReached);
 namespace lobelia::gather {
 
 DominantLights::DominantLights(const std::vector<ClusterTarget>& clusters,
-                               std::span<const trees::LightTree> trees)
+                               std::span<const trees::LightTree> trees, const Context& context)
     : begins_(clusters.size() + 1, 0) {
   const TargetTree tree(clusters);
   if (tree.clusters.empty()) return;
@@ -138,6 +138,7 @@ DominantLights::DominantLights(const std::vector<ClusterTarget>& clusters,
     const size_t first = parts.size();
     parts.resize(first + (nodes.size() + kGrain - 1) / kGrain, Part{t, {}});
     parallelRanges(nodes.size(), kGrain, [&](size_t begin, size_t end) {
+      if (context.cancelled()) return;
       HWY_DYNAMIC_DISPATCH(lobelia::findReached)
       (tree, nodes, begin, end, &parts[first + begin / kGrain].reached);
     });

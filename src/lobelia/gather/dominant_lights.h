@@ -4,9 +4,11 @@
 // reaches strongly, by its own lobe, down a tree of the clusters.
 #pragma once
 
+#include <compare>
 #include <span>
 #include <vector>
 
+#include "lobelia/base/context.h"
 #include "lobelia/gather/cut_receivers.h"
 #include "lobelia/trees/light_tree.h"
 
@@ -23,9 +25,9 @@ class DominantLights {
  public:
   DominantLights() = default;
   // clusters: neighbours one after the other. A light counts at a cluster that does for one of its
-  // representatives. The same for any number of threads.
+  // representatives. The same for any number of threads. Incomplete when cancelled.
   DominantLights(const std::vector<ClusterTarget>& clusters,
-                 std::span<const trees::LightTree> trees);
+                 std::span<const trees::LightTree> trees, const Context& context);
 
   // A leaf of a tree.
   struct Leaf {

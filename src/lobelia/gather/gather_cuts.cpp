@@ -4,6 +4,7 @@
 #include <bit>
 #include <optional>
 
+#include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
 #include "lobelia/gather/chosen_gather.h"
 #include "lobelia/gather/receiver_clusters.h"
@@ -24,6 +25,10 @@ constexpr float kOwnRays = 0.005f;
 
 }  // namespace
 
+// Lights are looked for that make this share of a dominant one's, as far as the receivers' means
+// tell.
+constexpr float kCandidateShare = 0.5f;
+
 // One cluster after the other.
 class LightCuts::ClusterGather {
  public:
@@ -33,14 +38,28 @@ class LightCuts::ClusterGather {
         gather_(cuts.tracer_, receivers_, clusters.order, cuts.lights_, cuts.spheres_,
                 cuts.settings_.gather, parts) {}
 
-  void run(const ReceiverClusters::Cluster& cluster, std::span<Rgb> radiance, GatherTally* tally) {
+  // As lights look for the cluster.
+  ClusterTarget target(const ReceiverClusters::Cluster& cluster) {
+    constexpr size_t kNodes = 64;
+    const CutReceivers receivers = cutReceivers(tileOf(cluster), receivers_);
+    ClusterTarget target;
+    target.least = kCandidateShare * kDominant *
+                   estimateAll(receivers, cluster.representatives, cuts_.trees_,
+                               cuts_.settings_.cut, kNodes, &scratch_);
+    if (!(target.least > 0)) return target;
+    target.receivers = peaks(receivers, cluster.representatives);
+    target.count = cluster.representatives;
+    return target;
+  }
+
+  void run(const ReceiverClusters::Cluster& cluster, std::span<const DominantLights::Leaf> dominant,
+           std::span<Rgb> radiance, GatherTally* tally) {
     const int64_t start = nanosecondsNow();
-    Tile tile = makeTile(receivers_, cluster.begin, cluster.end);
-    addSampling(receivers_, &tile);
+    const Tile tile = tileOf(cluster);
     const uint64_t seed = keyOf(receivers_.points[cluster.begin], cuts_.settings_.seed);
     tally->evaluations +=
         drawCutLights(cutReceivers(tile, receivers_), cluster.representatives, cuts_.trees_,
-                      cuts_.settings_.cut, seed, &scratch_, &drawn_);
+                      dominant, cuts_.settings_.cut, seed, &scratch_, &drawn_);
     choose(cluster.compact && cuts_.settings_.shared);
     tally->lights += chosen_.size();
     tally->clusteredLights += cuts_.numbers_.count();
@@ -51,6 +70,12 @@ class LightCuts::ClusterGather {
   }
 
  private:
+  Tile tileOf(const ReceiverClusters::Cluster& cluster) const {
+    Tile tile = makeTile(receivers_, cluster.begin, cluster.end);
+    addSampling(receivers_, &tile);
+    return tile;
+  }
+
   // What was drawn, in the order in which it is gathered.
   void choose(bool share) {
     chosen_.clear();
@@ -102,15 +127,28 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
     ordered = *parts;
     ordered->reset(clusters.order.size());
   }
+  const auto gathered = [&](size_t i) {
+    const ReceiverClusters::Cluster& cluster = clusters.clusters[i];
+    return holdsPixel(clusters.receivers, cluster.begin, cluster.end, onlyPixel);
+  };
   constexpr size_t kGrain = 8;
+  DominantLights dominant;
+  {
+    const StageTimer timer(context, "traverse");
+    std::vector<ClusterTarget> targets(clusters.clusters.size());
+    parallelRanges(targets.size(), kGrain, [&](size_t begin, size_t end) {
+      ClusterGather gather(*this, clusters, nullptr);
+      for (size_t i = begin; i < end && !context.cancelled(); ++i)
+        if (gathered(i)) targets[i] = gather.target(clusters.clusters[i]);
+    });
+    dominant = DominantLights(targets, std::span(trees_).first(kDirectionalTree), context);
+  }
   gatherInParallel(clusters.clusters.size(), kGrain, context,
                    [&](size_t begin, size_t end, GatherTally* tally) {
                      ClusterGather gather(*this, clusters, ordered ? &*ordered : nullptr);
-                     for (size_t i = begin; i < end && !context.cancelled(); ++i) {
-                       const ReceiverClusters::Cluster& cluster = clusters.clusters[i];
-                       if (holdsPixel(clusters.receivers, cluster.begin, cluster.end, onlyPixel))
-                         gather.run(cluster, radiance, tally);
-                     }
+                     for (size_t i = begin; i < end && !context.cancelled(); ++i)
+                       if (gathered(i))
+                         gather.run(clusters.clusters[i], dominant.of(i), radiance, tally);
                    });
   if (parts != nullptr) parts->setOrdered(*ordered, clusters.order, points);
 }

@@ -13,6 +13,8 @@ constexpr float kNormalShare = 0.05f;
 constexpr float kTurned = 0.9f;
 // Pixels of a compact cluster lie in a square of this side, those of others in one twice as wide.
 constexpr uint32_t kCompactSide = 32;
+// More take time in proportion and leave no less error.
+constexpr int kMostRepresentatives = 4;
 // And its points lie within this share of the scene's size, and their normals agree.
 constexpr float kCompactShare = 0.02f;
 constexpr float kCompactCosine = 0.7f;
@@ -101,7 +103,7 @@ class Clusters {
         if (!near(i, std::min(i + run, end))) return false;
       return true;
     };
-    while (count < kStrip && !runsAreNear()) count *= 2;
+    while (count < kMostRepresentatives && !runsAreNear()) count *= 2;
     return count;
   }
 

@@ -14,8 +14,8 @@ struct ReceiverClusters {
     uint32_t begin = 0, end = 0;  // of the points
     bool compact = false;         // near neighbours in the picture and in the scene, turned alike
     // The least power of two, such that the runs of kStrip / representatives points are near each
-    // other in the scene and turned alike.
-    int representatives = kStrip;
+    // other in the scene and turned alike, or 4.
+    int representatives = 1;
   };
   std::vector<Cluster> clusters;
 };

@@ -28,8 +28,10 @@ Bound boundOf(const ClusterTarget& target, int lane) {
   return bound;
 }
 
-// Around those that something reaches.
+// Around those that something reaches; with room for rounding, so that what counts at a target does
+// not depend on its neighbours.
 Bound boundOf(const BoundStrip& strip) {
+  constexpr float kRoom = 1e-4f;
   Bounds3f box;
   const auto forEach = [&](const auto& use) {
     for (int lane = 0; lane < kStrip; ++lane)
@@ -43,8 +45,9 @@ Bound boundOf(const BoundStrip& strip) {
   if (!(bound.least < kNever)) return bound;
   bound.centre = box.centre();
   forEach([&](Vec3f p, float radius, int) {
-    bound.radius = std::max(bound.radius, 1.000001f * (length(p - bound.centre) + radius));
+    bound.radius = std::max(bound.radius, (1 + kRoom) * (length(p - bound.centre) + radius));
   });
+  bound.least *= 1 - kRoom;
   return bound;
 }
 

@@ -80,7 +80,9 @@ std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
                   : asTreeLight(boundItemOf(lights, block.lightClass, index, sphere),
                                 block.lightClass == LightClass::omni);
       if (spherical) light.variance = 0.5f * sphere->squaredRadius;
-      trees[place] = block.lightClass == LightClass::directional ? 2 : light.mostlyGlossy() ? 1 : 0;
+      trees[place] = block.lightClass == LightClass::directional ? kDirectionalTree
+                     : light.mostlyGlossy()                      ? 1
+                                                                 : 0;
     }
   });
   std::array<TreeLights, kLightTrees> out;

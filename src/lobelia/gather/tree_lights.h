@@ -12,7 +12,7 @@ namespace lobelia::gather {
 // Lights that are mostly diffuse, those that are mostly glossy, and directional ones, which stand
 // far outside of the scene: a node of several kinds would be told very wrongly. spheres:
 // prepareSpheres(), which may be empty.
-inline constexpr size_t kLightTrees = 3;
+inline constexpr size_t kLightTrees = 3, kDirectionalTree = 2;
 struct TreeLights {
   std::vector<trees::TreeLight> lights;
   std::vector<uint32_t> numbers;  // of the lights

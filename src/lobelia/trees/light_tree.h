@@ -32,7 +32,7 @@ struct TreeLight {
 };
 
 // In preorder: the first child of node i is i + 1.
-struct LightNode {
+struct alignas(64) LightNode {  // a cache line
   Vec3f centre;        // mean of the places, by power
   float variance = 0;  // mean square distance to it
   // Mean by power: its length tells how far the lights' normals agree.
