@@ -77,7 +77,7 @@ void requireGather(const RenderOptions& options) {
 
 size_t gatheredLights(size_t lights, const RenderOptions& options) {
   // A light of a cut costs a few times a pair of brute force: choosing it.
-  constexpr size_t kCostOfChoice = 4;
+  constexpr size_t kCostOfChoice = 2;
   // Of a receiver's pairs of nodes: as many receivers as a band has should share them.
   constexpr size_t kNodes = 2000;
   if (gathersPairs(options) || options.gather == "illumcut") return std::min(lights, kNodes);
