@@ -166,9 +166,6 @@ TEST_F(BaselinesRender, WrongUseSaysWhatWouldBeRight) {
   expectError("--gather lightslice --cut-size 10", "sglc, lightcuts, mdlc, stochastic");
   expectError("--gather lightcut", "lightcuts");
   expectError("--gather lightslice --num-lights 3000 --memory 1K", "--slices");
-  expectError("--gather lightcuts --memory 1G", "mrcs, lightslice");
-  expectError("--gather sglc --memory 2G", "mrcs, lightslice");
-  expectError("--memory 2G", "mrcs, lightslice");
   expectError("--lights path --gather lightcuts", "--lights path");
 }
 

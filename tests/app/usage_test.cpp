@@ -158,6 +158,7 @@ TEST(Usage, OptionsWithoutEffectAreSaid) {
   };
   using Names = std::vector<std::string>;
   EXPECT_EQ(warnings("--num-lights 16"), Names{});
+  EXPECT_EQ(warnings("--num-lights 16 --gather sglc --memory 1G"), Names{"--memory"});
   EXPECT_EQ(warnings("--lights path --num-lights 512 --clamp off --direct nee --env-lights 9 "
                      "--passes 2 --gather all"),
             (Names{"--gather", "--num-lights", "--passes", "--env-lights", "--direct", "--clamp"}));

@@ -132,6 +132,16 @@ TEST_F(GatherPointCuts, SharedRaysChangeVisibilityOnly) {
   expectEqual(apart, some(tracer_, lights_));  // only neighbours share
 }
 
+// As filters have.
+TEST_F(GatherPointCuts, WeightsMayBeNegative) {
+  settings_.cut.nodes = 50;
+  const std::vector<Rgb> light = some(tracer_, lights_);
+  for (ReceiverPoint& point : receivers_.points) point.weight *= -1.f;
+  const std::vector<Rgb> negative = some(tracer_, lights_);
+  EXPECT_GT(sum(light), 0);
+  for (size_t i = 0; i < light.size(); ++i) EXPECT_EQ(negative[i], -1.f * light[i]) << i;
+}
+
 TEST_F(GatherPointCuts, ThreadsDoNotMatter) {
   settings_.cut.nodes = 50;
   settings_.shared = true;

@@ -55,7 +55,6 @@ void requireGather(const RenderOptions& options) {
         Owned{"--column-scale", {"mrcs"}, options.columnScale != "scalar"},
         Owned{"--near-field", {"mrcs"}, options.nearField >= 0},
         Owned{"--error", {"mrcs"}, options.error > 0},
-        Owned{"--memory", {"mrcs", "lightslice"}, options.memory > 0},
         Owned{"--sglc-mode", {"sglc"}, !options.cutMode.empty()},
         Owned{"--cut-size", {"sglc", "lightcuts", "mdlc", "stochastic"}, options.cutSize > 0},
         Owned{"--threshold",

@@ -200,7 +200,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->check(oneOf({"sampled", "full"}));
   c.add_option(
        "--cut-size", o.cutSize,
-       "--gather sglc: lights that a cluster of receivers gathers, at most; default: 1024. "
+       "--gather sglc: nodes of a cluster's cut, at most; default: 1024. "
        "lightcuts, stochastic: nodes of a receiver's cut, at most; default: 1000, 256. mdlc: "
        "pairs of nodes of a pixel's, at most; default: 8000")
       ->type_name("N")

@@ -105,6 +105,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"rays_per_pixel", ratio(shadowRays, static_cast<double>(pixels))},
                     {"node_pairs_visited", s.count("node_pairs_visited")},
                     {"node_pairs_shaded", s.count("node_pairs_shaded")},
+                    {"dominant_lights", s.count("dominant_lights")},
+                    {"dominant_comparisons", s.count("dominant_comparisons")},
                     {"cut_nodes_per_pixel", ratio(static_cast<double>(s.count("cut_lights")),
                                                   static_cast<double>(pixels))},
                     {"lights_per_light_node", lightsPerNode(report, s)},

@@ -267,13 +267,15 @@ float sumOf(std::span<const Entry> cut) {
   return sum;
 }
 
-// Of the leaves, those that make at least a share of the whole by their own lobes; appends them.
+// Of the leaves, sorted, those that give at least so much by their own lobes; at most so many, the
+// strongest. Appends their lights.
 size_t keepDominant(const g::CutReceivers& receivers, std::span<const LightTree> trees,
                     std::span<const g::DominantLights::Leaf> leaves, float scale, float least,
-                    std::vector<g::DominantLights::Leaf>* dominant,
-                    std::vector<g::CutLight>* lights) {
-  dominant->clear();
+                    size_t most, g::CutScratch* scratch, std::vector<g::CutLight>* lights) {
+  scratch->dominant.clear();
   if (leaves.empty()) return 0;
+  std::vector<g::CutScratch::Dominant>& kept = scratch->strongest;
+  kept.clear();
   Importance exact(receivers, g::kStrip, 0, scale);
   constexpr size_t kAtOnce = 16;
   for (size_t begin = 0; begin < leaves.size(); begin += kAtOnce) {
@@ -283,11 +285,22 @@ size_t keepDominant(const g::CutReceivers& receivers, std::span<const LightTree>
     for (size_t i = 0; i < count; ++i)
       nodes[i] = &trees[leaves[begin + i].tree].nodes()[leaves[begin + i].node];
     exact.evaluate({nodes, count}, values);
-    for (size_t i = 0; i < count; ++i) {
-      if (!(values[i] >= least)) continue;
-      dominant->push_back(leaves[begin + i]);
-      lights->push_back({trees[leaves[begin + i].tree].light(nodes[i]->link), 1, values[i]});
-    }
+    for (size_t i = 0; i < count; ++i)
+      if (values[i] >= least) kept.push_back({leaves[begin + i], values[i]});
+  }
+  if (kept.size() > most) {
+    const auto end = kept.begin() + static_cast<ptrdiff_t>(most);
+    std::nth_element(kept.begin(), end, kept.end(), [](const auto& a, const auto& b) {
+      return a.value != b.value ? a.value > b.value : a.leaf < b.leaf;
+    });
+    kept.resize(most);
+    std::sort(kept.begin(), kept.end(),
+              [](const auto& a, const auto& b) { return a.leaf < b.leaf; });
+  }
+  for (const g::CutScratch::Dominant& light : kept) {
+    const LightTree& tree = trees[light.leaf.tree];
+    scratch->dominant.push_back(light.leaf);
+    lights->push_back({tree.light(tree.nodes()[light.leaf.node].link), 1, light.value});
   }
   return exact.evaluations();
 }
@@ -303,7 +316,7 @@ size_t drawCutLights(const g::CutReceivers& receivers, int representatives,
   std::vector<Entry>& cut = scratch->done;
   const float least = g::kDominant * sumOf(cut);
   const size_t compared = keepDominant(receivers, trees, dominant, importance.scale(), least,
-                                       &scratch->dominant, lights);
+                                       settings.nodes, scratch, lights);
   std::sort(cut.begin(), cut.end(), [](const Entry& a, const Entry& b) {
     return a.tree != b.tree ? a.tree < b.tree : a.node < b.node;
   });
@@ -321,9 +334,10 @@ size_t drawCutLights(const g::CutReceivers& receivers, int representatives,
 
 float estimateAll(const g::CutReceivers& receivers, int representatives,
                   std::span<const LightTree> trees, const g::CutSettings& settings, size_t nodes,
-                  g::CutScratch* scratch) {
+                  g::CutScratch* scratch, uint64_t* evaluations) {
   Importance importance(receivers, representatives, trees, settings.floor);
   CutGrowth(trees, &importance, scratch).run(nodes);
+  *evaluations += importance.evaluations();
   return sumOf(scratch->done) / importance.scale();
 }
 
@@ -347,9 +361,9 @@ size_t drawCutLights(const CutReceivers& receivers, int representatives,
 
 float estimateAll(const CutReceivers& receivers, int representatives,
                   std::span<const trees::LightTree> trees, const CutSettings& settings,
-                  size_t nodes, CutScratch* scratch) {
+                  size_t nodes, CutScratch* scratch, uint64_t* evaluations) {
   return HWY_DYNAMIC_DISPATCH(lobelia::estimateAll)(receivers, representatives, trees, settings,
-                                                    nodes, scratch);
+                                                    nodes, scratch, evaluations);
 }
 
 }  // namespace lobelia::gather

@@ -33,21 +33,27 @@ struct CutScratch {
   };
   std::vector<Entry> heap, done;
   std::vector<CutLight> drawn;
+  struct Dominant {
+    DominantLights::Leaf leaf;
+    float value;
+  };
+  std::vector<Dominant> strongest;
   std::vector<DominantLights::Leaf> dominant;
 };
 
 // A light that makes at least this share of what a cluster gets is not left to chance.
 inline constexpr float kDominant = 0.005f;
 
-// What the receivers get from all lights, roughly, by a cut of so few nodes.
+// What the receivers get from all lights, roughly, by a cut of so few nodes. Adds the number of
+// nodes whose importance was computed.
 float estimateAll(const CutReceivers& receivers, int representatives,
                   std::span<const trees::LightTree> trees, const CutSettings& settings,
-                  size_t nodes, CutScratch* scratch);
+                  size_t nodes, CutScratch* scratch, uint64_t* evaluations);
 
 // By one cut of several trees, no light twice. dominant: lights that may make much of what the
-// receivers get; those that do are taken as they are. seed: of what is drawn. representatives: of
-// the receivers, by which lights are drawn below the cut's nodes. Returns the number of nodes whose
-// importance was computed.
+// receivers get; those that do are taken as they are, at most as many as the cut may have nodes.
+// seed: of what is drawn. representatives: of the receivers, by which lights are drawn below the
+// cut's nodes. Returns the number of nodes whose importance was computed.
 size_t drawCutLights(const CutReceivers& receivers, int representatives,
                      std::span<const trees::LightTree> trees,
                      std::span<const DominantLights::Leaf> dominant, const CutSettings& settings,

@@ -96,7 +96,8 @@ CutReceivers cutReceivers(const Tile& tile, const Receivers& receivers) {
     out.gaussians[i] = tile.gaussians[strip.firstGaussian + i];
   for (size_t lane = 0; lane < kStrip; ++lane) {
     const bool active = strip.active >> lane & 1;
-    out.weight[lane] = active ? luminance(receivers.points[strip.point[lane]].weight) : 0;
+    // Filters have weights below 0, too.
+    out.weight[lane] = active ? std::abs(luminance(receivers.points[strip.point[lane]].weight)) : 0;
     out.variance[lane] = out.placeSlack[lane] = out.normalSlack[lane] = 0;
   }
   return out;

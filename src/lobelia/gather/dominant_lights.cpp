@@ -25,10 +25,13 @@ class Reaching {
         onAllSides_(dot(light.n, light.n) < 0.5f) {}
 
   // Of the targets of a strip, bit by bit: those that the light may reach strongly enough.
-  uint32_t mayReach(const g::BoundStrip& strip) const {
+  // above: the strip is one of strips.
+  uint32_t mayReach(const g::BoundStrip& strip, bool above) const {
+    // A difference of rounding, so that what a target has does not depend on its neighbours.
+    const Vf room(above ? 1e-6f : 0.f);
     uint32_t bits = 0;
     for (size_t lane = 0; lane < g::kStrip; lane += kLanes)
-      bits |= maskBits(mayReach(strip, lane)) << lane;
+      bits |= maskBits(mayReach(strip, lane, room)) << lane;
     return bits;
   }
   // Those that it does reach so, as far as estimates tell.
@@ -52,7 +55,7 @@ class Reaching {
  private:
   static constexpr float kFloor = 0.01f;  // as CutSettings::floor
 
-  HWY_INLINE Mf mayReach(const g::BoundStrip& strip, size_t lane) const {
+  HWY_INLINE Mf mayReach(const g::BoundStrip& strip, size_t lane, Vf room) const {
     const V3<Vf> d = load(strip.centre, lane) - broadcast(light_.centre);
     const Vf radius = Vf::load(strip.radius + lane);
     const Vf distance = sqrt(dot(d, d));
@@ -63,7 +66,7 @@ class Reaching {
     const Vf cosine = sqrt(Vf(1.f) - sine * sine);
     const auto mostCosine = [&](Vec3f axis) {
       const Vf c = min(max(dot(broadcast(axis), d) * inverse, Vf(-1.f)), Vf(1.f));
-      const Vf turned = c * cosine + sqrt(Vf(1.f) - c * c) * sine;
+      const Vf turned = c * cosine + sqrt(Vf(1.f) - c * c) * sine + room;
       return select((nearest <= Vf(0.f)) | (c >= cosine), Vf(1.f), turned);
     };
     // Of a light that leaves on all sides, `diffuse` is four times the mean.
@@ -87,12 +90,14 @@ class Reaching {
   NodeTable table_;
 };
 
-void findReached(const g::TargetTree& tree, std::span<const trees::LightNode> nodes, size_t begin,
-                 size_t end, std::vector<g::Reached>* reached) {
+// Appends what the leaves of nodes[begin, end) reach; returns the number of pairs compared.
+uint64_t findReached(const g::TargetTree& tree, std::span<const trees::LightNode> nodes,
+                     size_t begin, size_t end, std::vector<g::Reached>* reached) {
   struct Strip {
     uint32_t level, index;
   };
   std::vector<Strip> stack;
+  uint64_t strips = 0;
   for (size_t node = begin; node < end; ++node) {
     if (!nodes[node].leaf()) continue;
     Reaching light(nodes[node]);
@@ -100,8 +105,12 @@ void findReached(const g::TargetTree& tree, std::span<const trees::LightNode> no
     while (!stack.empty()) {
       const Strip at = stack.back();
       stack.pop_back();
-      uint32_t bits = light.mayReach(tree.levels[at.level][at.index]);
-      if (bits != 0 && at.level == 0) bits &= light.reaches(tree.targets[at.index]);
+      ++strips;
+      uint32_t bits = light.mayReach(tree.levels[at.level][at.index], at.level > 0);
+      if (bits != 0 && at.level == 0) {
+        ++strips;
+        bits &= light.reaches(tree.targets[at.index]);
+      }
       for (; bits != 0; bits &= bits - 1) {
         const uint32_t child = at.index * g::kStrip + static_cast<uint32_t>(__builtin_ctz(bits));
         if (at.level > 0)
@@ -111,6 +120,7 @@ void findReached(const g::TargetTree& tree, std::span<const trees::LightNode> no
       }
     }
   }
+  return strips * g::kStrip;
 }
 
 LOBELIA_CORE_END
@@ -131,16 +141,18 @@ DominantLights::DominantLights(const std::vector<ClusterTarget>& clusters,
   struct Part {
     uint32_t tree;
     std::vector<Reached> reached;
+    uint64_t comparisons = 0;
   };
   std::vector<Part> parts;
   for (uint32_t t = 0; t < trees.size(); ++t) {
     const auto nodes = trees[t].nodes();
     const size_t first = parts.size();
-    parts.resize(first + (nodes.size() + kGrain - 1) / kGrain, Part{t, {}});
+    parts.resize(first + (nodes.size() + kGrain - 1) / kGrain, Part{t, {}, 0});
     parallelRanges(nodes.size(), kGrain, [&](size_t begin, size_t end) {
       if (context.cancelled()) return;
-      HWY_DYNAMIC_DISPATCH(lobelia::findReached)
-      (tree, nodes, begin, end, &parts[first + begin / kGrain].reached);
+      Part& part = parts[first + begin / kGrain];
+      part.comparisons =
+          HWY_DYNAMIC_DISPATCH(lobelia::findReached)(tree, nodes, begin, end, &part.reached);
     });
   }
   // A light may reach several representatives of a cluster.
@@ -148,6 +160,7 @@ DominantLights::DominantLights(const std::vector<ClusterTarget>& clusters,
     std::sort(part.reached.begin(), part.reached.end());
     part.reached.erase(std::unique(part.reached.begin(), part.reached.end()), part.reached.end());
   }
+  for (const Part& part : parts) comparisons_ += part.comparisons;
   for (const Part& part : parts)
     for (const Reached& light : part.reached) ++begins_[light.cluster + 1];
   for (size_t i = 0; i < clusters.size(); ++i) begins_[i + 1] += begins_[i];

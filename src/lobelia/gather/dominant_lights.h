@@ -2,6 +2,9 @@
 // A node of a light tree tells badly of a single light whose lobe is sharp or that is near: drawn
 // too rarely, it flares, or lacks (gather_cuts.h). So every light looks for the clusters that it
 // reaches strongly, by its own lobe, down a tree of the clusters.
+//
+// Not in [P000] nor [Yuksel19]: of bounds the first has one per node, which does not tell of the
+// strongest of its lights either.
 #pragma once
 
 #include <compare>
@@ -38,11 +41,15 @@ class DominantLights {
   std::span<const Leaf> of(size_t cluster) const {
     return std::span(leaves_).subspan(begins_[cluster], begins_[cluster + 1] - begins_[cluster]);
   }
+  // How many lights count, cluster by cluster, and how many pairs of a light and a representative
+  // or a group of them were compared for it.
   size_t count() const { return leaves_.size(); }
+  uint64_t comparisons() const { return comparisons_; }
 
  private:
   std::vector<Leaf> leaves_;
   std::vector<size_t> begins_;
+  uint64_t comparisons_ = 0;
 };
 
 }  // namespace lobelia::gather

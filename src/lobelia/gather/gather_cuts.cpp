@@ -1,6 +1,7 @@
 #include "lobelia/gather/gather_cuts.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <optional>
 
@@ -19,15 +20,11 @@ uint64_t keyOf(const ReceiverPoint& point, uint64_t seed) {
   return key;
 }
 
-// A light that makes at least this share of what a cluster gets casts its shadow sharply: each
-// receiver has its own ray to it.
-constexpr float kOwnRays = 0.005f;
-
-}  // namespace
-
 // Lights are looked for that make this share of a dominant one's, as far as the receivers' means
 // tell.
 constexpr float kCandidateShare = 0.5f;
+
+}  // namespace
 
 // One cluster after the other.
 class LightCuts::ClusterGather {
@@ -39,13 +36,13 @@ class LightCuts::ClusterGather {
                 cuts.settings_.gather, parts) {}
 
   // As lights look for the cluster.
-  ClusterTarget target(const ReceiverClusters::Cluster& cluster) {
+  ClusterTarget target(const ReceiverClusters::Cluster& cluster, uint64_t* evaluations) {
     constexpr size_t kNodes = 64;
     const CutReceivers receivers = cutReceivers(tileOf(cluster), receivers_);
     ClusterTarget target;
     target.least = kCandidateShare * kDominant *
                    estimateAll(receivers, cluster.representatives, cuts_.trees_,
-                               cuts_.settings_.cut, kNodes, &scratch_);
+                               cuts_.settings_.cut, kNodes, &scratch_, evaluations);
     if (!(target.least > 0)) return target;
     target.receivers = peaks(receivers, cluster.representatives);
     target.count = cluster.representatives;
@@ -82,7 +79,8 @@ class LightCuts::ClusterGather {
     for (const CutLight& drawn : drawn_) {
       ChosenLight light = cuts_.numbers_.at(drawn.number);
       light.scale = Rgb(1 / drawn.probability);
-      light.shared = share && drawn.share < kOwnRays;
+      // A light that matters much alone casts its shadow sharply.
+      light.shared = share && drawn.share < kDominant;
       chosen_.push_back(light);
     }
     std::stable_sort(
@@ -136,12 +134,18 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
   {
     const StageTimer timer(context, "traverse");
     std::vector<ClusterTarget> targets(clusters.clusters.size());
+    std::atomic<uint64_t> evaluations = 0;
     parallelRanges(targets.size(), kGrain, [&](size_t begin, size_t end) {
       ClusterGather gather(*this, clusters, nullptr);
+      uint64_t own = 0;
       for (size_t i = begin; i < end && !context.cancelled(); ++i)
-        if (gathered(i)) targets[i] = gather.target(clusters.clusters[i]);
+        if (gathered(i)) targets[i] = gather.target(clusters.clusters[i], &own);
+      evaluations += own;
     });
     dominant = DominantLights(targets, std::span(trees_).first(kDirectionalTree), context);
+    context.statistics.addCount("node_pairs_visited", evaluations);
+    context.statistics.addCount("dominant_lights", dominant.count());
+    context.statistics.addCount("dominant_comparisons", dominant.comparisons());
   }
   gatherInParallel(clusters.clusters.size(), kGrain, context,
                    [&](size_t begin, size_t end, GatherTally* tally) {
