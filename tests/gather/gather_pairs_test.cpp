@@ -155,6 +155,19 @@ TEST_F(GatherPairs, EachLightAndReceiverOnce) {
     }
 }
 
+// Filters weight samples below 0, too: their bounds are those of their size.
+TEST_F(GatherPairs, WeightsMayBeNegative) {
+  settings_.threshold = 0.01f;
+  settings_.gather.clamp = 3;
+  const std::vector<Rgb> light = pairs(tracer_, lights_);
+  for (ReceiverPoint& point : receivers_.points) point.weight = Rgb(0.f) - point.weight;
+  const std::vector<Rgb> exact = all(tracer_, lights_);
+  EXPECT_LT(sum(exact), 0);
+  const double error = relativeError(pairs(tracer_, lights_), exact);
+  for (ReceiverPoint& point : receivers_.points) point.weight = Rgb(0.f) - point.weight;
+  EXPECT_LT(error, 1.5 * relativeError(light, all(tracer_, lights_)) + 0.01);
+}
+
 TEST_F(GatherPairsOfWalls, SmallerThresholdsComeNearer) {
   const Tracer tracer(scene_, context_);
   const std::vector<Rgb> exact = all(tracer, lights_);
