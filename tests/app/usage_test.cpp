@@ -22,6 +22,13 @@ TEST(Usage, HelpVersionAndMethods) {
   EXPECT_NE(methods.out.find("glossy"), std::string::npos);
 }
 
+TEST(Usage, ArgumentsMayBeLong) {
+  const std::string name(100'000, 'n');
+  const ProgramResult r = runProgram("info " + name);
+  EXPECT_EQ(r.exitCode, 3);
+  EXPECT_NE(r.err.find(name), std::string::npos);
+}
+
 TEST(Usage, WrongUsageIsTwo) {
   expectFailure("", 2, "subcommand");
   expectFailure("rendr x", 2, "");
