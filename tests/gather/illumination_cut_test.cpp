@@ -154,7 +154,7 @@ TEST_F(IlluminationCutOfWalls, EachLightAndReceiverOnce) {
 
 // Spherical lights: where bounds underflow, lobes have tails.
 TEST_F(IlluminationCutGather, ThresholdZeroOfSphericalLights) {
-  LitFloor floor(roughMetal(Distribution::ggx, 0.05f, 0.05f), 0.1f, {0.2f, 0, 1});
+  LitFloor floor(roughMetal(Distribution::ggx, 0.02f, 0.02f), 0.1f, {0.2f, 0, 1});
   use_ = &floor.tracer();
   lights_ = floor.lights();
   Bsdf plain;
