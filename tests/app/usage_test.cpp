@@ -24,8 +24,8 @@ TEST(Usage, HelpVersionAndMethods) {
 
 TEST(Usage, ArgumentsMayBeLong) {
   const std::string name(100'000, 'n');
-  const ProgramResult r = runProgram("info " + name);
-  EXPECT_EQ(r.exitCode, 3);
+  const ProgramResult r = runProgram("info cornell --" + name);
+  EXPECT_EQ(r.exitCode, 2);
   EXPECT_NE(r.err.find(name), std::string::npos);
 }
 
