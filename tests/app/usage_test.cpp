@@ -23,10 +23,9 @@ TEST(Usage, HelpVersionAndMethods) {
 }
 
 TEST(Usage, ArgumentsMayBeLong) {
-  const std::string name(100'000, 'n');
-  const ProgramResult r = runProgram("info cornell --" + name);
+  const ProgramResult r = runProgram("info " + std::string(100'000, 'n') + " --nonsense");
   EXPECT_EQ(r.exitCode, 2);
-  EXPECT_NE(r.err.find(name), std::string::npos);
+  EXPECT_NE(r.err.find("--nonsense"), std::string::npos) << r.err;
 }
 
 TEST(Usage, WrongUsageIsTwo) {
