@@ -22,6 +22,12 @@ TEST(Usage, HelpVersionAndMethods) {
   EXPECT_NE(methods.out.find("glossy"), std::string::npos);
 }
 
+TEST(Usage, ArgumentsMayBeLong) {
+  const ProgramResult r = runProgram("info " + std::string(100'000, 'n') + " --nonsense");
+  EXPECT_EQ(r.exitCode, 2);
+  EXPECT_NE(r.err.find("--nonsense"), std::string::npos) << r.err;
+}
+
 TEST(Usage, WrongUsageIsTwo) {
   expectFailure("", 2, "subcommand");
   expectFailure("rendr x", 2, "");

@@ -155,6 +155,19 @@ TEST_F(GatherPairs, EachLightAndReceiverOnce) {
     }
 }
 
+// Filters weight samples below 0, too: their bounds are those of their size.
+TEST_F(GatherPairsOfWalls, WeightsMayBeNegative) {
+  const Tracer tracer(scene_, context_);
+  for (ReceiverPoint& point : receivers_.points)
+    if (point.p.x < 0.5f) point.weight = Rgb(-0.1f);
+  settings_.threshold = 0.01f;
+  std::vector<Rgb> exact = all(tracer, lights_), light = pairs(tracer, lights_);
+  for (size_t i = 0; i < exact.size(); ++i)
+    if (receivers_.points[i].weight.x > 0) exact[i] = light[i] = {};
+  EXPECT_LT(sum(exact), 0);
+  EXPECT_LT(relativeError(light, exact), 0.005);
+}
+
 TEST_F(GatherPairsOfWalls, SmallerThresholdsComeNearer) {
   const Tracer tracer(scene_, context_);
   const std::vector<Rgb> exact = all(tracer, lights_);

@@ -2,6 +2,7 @@
 #include "lobelia/gather/illumination_cut.h"
 
 #include "gather/lit_corner.h"
+#include "gather/spherical_setup.h"
 #include "gather/strategy_test.h"
 
 namespace lobelia {
@@ -127,15 +128,42 @@ TEST_F(IlluminationCutOfWalls, FewRaysDoForManyReceivers) {
   EXPECT_FALSE(few == full);
 }
 
-// Without bounds of 0 each light and receiver is in one pair.
+// No bound is 0 where all face each other, and under a low clamp every light of a node sends the
+// same: the sum of a receiver says that each is in one pair with it.
 TEST_F(IlluminationCutOfWalls, EachLightAndReceiverOnce) {
+  for (Lobe& lobe : receivers_.lobes) lobe = Lobe{}, lobe.weight = Rgb(0.5f);
+  lights_.glossy.clear(), lights_.glossyDepthEnds.clear();
+  for (DiffuseLight& light : lights_.diffuse) light.intensity = Rgb(1.f);
+  const Tracer open(Scene{}, context_);
+  use_ = &open;
+  gather_.clamp = 1e-6f;
   const uint64_t whole = receivers_.points.size() * lights_.size();
   for (const double threshold : {0.0, 0.01, 0.3}) {
+    SCOPED_TRACE(threshold);
     settings_.threshold = threshold;
-    const uint64_t covered = growth("clustered_lights", [&] { some(); });
-    EXPECT_LE(covered, whole) << threshold;
-    EXPECT_GT(covered, whole / 2) << threshold << ": what faces each other";
+    std::vector<Rgb> light;
+    uint64_t covered = 0;
+    const uint64_t shaded = growth(
+        "cut_lights", [&] { covered = growth("clustered_lights", [&] { light = some(); }); });
+    EXPECT_EQ(covered, whole);
+    EXPECT_EQ(shaded<whole, threshold> 0) << "lights stand for others";
+    for (const Rgb value : light)
+      EXPECT_NEAR(value.x, 1e-6f * static_cast<float>(lights_.size()), 1e-8f);
   }
+}
+
+// Spherical lights: where bounds underflow, lobes have tails.
+TEST_F(IlluminationCutGather, ThresholdZeroOfSphericalLights) {
+  LitFloor floor(roughMetal(Distribution::ggx, 0.02f, 0.02f), 0.1f, {0.2f, 0, 1});
+  use_ = &floor.tracer();
+  lights_ = floor.lights();
+  Bsdf plain;
+  plain.add(Lobe{});
+  receivers_ = LitFloor::receivers({1.5f, 0.3f, 0.5f}, {0, 0, -1}, {0.4f, 0.3f, -1}, plain, 48);
+  settings_.threshold = 0;
+  const std::vector<Rgb> exact = all();
+  EXPECT_GT(sum(exact), 0);
+  EXPECT_LT(relativeError(some(), exact), 0.1);
 }
 
 // With one light below a node the node's light is that of all; in the mean over representatives

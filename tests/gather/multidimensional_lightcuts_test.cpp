@@ -220,6 +220,24 @@ TEST_F(MultidimensionalOfWalls, OnePixelAloneHasTheSameBits) {
 
 TEST_F(MultidimensionalGather, PartsAddUp) { expectPartsAddUp(); }
 
+// The cut of the pixel before is not theirs.
+TEST_F(MultidimensionalGather, PartsOfPixelsWithoutLobes) {
+  for (ReceiverPoint& point : receivers_.points)
+    if (point.pixel % 3 == 1) point.lobeCount = 0;
+  expectPartsAddUp();
+}
+
+// Rays by themselves are those of the cut; what takes light apart traces them again.
+TEST_F(MultidimensionalGather, RaysOfPartsCount) {
+  GatherParts rays;
+  rays.countRays = true;
+  GatherParts types = rays;
+  types.byType = true;
+  const uint64_t plain = growth("shadow_rays", [&] { some(); });
+  EXPECT_EQ(growth("shadow_rays", [&] { some(0, &rays); }), plain);
+  EXPECT_GT(growth("shadow_rays", [&] { some(0, &types); }), plain);
+}
+
 TEST_F(MultidimensionalGather, NothingWhenCancelled) {
   context_.cancel();
   EXPECT_EQ(sum(some()), 0);

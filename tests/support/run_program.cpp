@@ -40,10 +40,13 @@ void redirect(const std::string& file, int flags, int to) {
 // A request: the files for both streams and the words, each ended by a zero. The answer: the status
 // as waitpid() has it.
 [[noreturn]] void serve(int fd) {
-  std::vector<char> request(1 << 16);
+  std::vector<char> request;
   for (;;) {
-    const ssize_t size = recv(fd, request.data(), request.size(), 0);
+    char none = 0;
+    const ssize_t size = recv(fd, &none, 1, MSG_PEEK | MSG_TRUNC);  // of the whole request
     if (size <= 0) _exit(0);
+    request.resize(static_cast<size_t>(size));
+    if (recv(fd, request.data(), request.size(), 0) != size) _exit(1);
     std::vector<std::string> words;
     for (const char* p = request.data(); p < request.data() + size; p += words.back().size() + 1)
       words.emplace_back(p);

@@ -167,8 +167,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
        "--sglc-mode paper: error that a pair of nodes may have, relative to what its "
        "pixels have; 0: all lights; default: 0.01. --gather lightcuts, mdlc, stochastic: share "
        "of a receiver's (mdlc: a pixel's) light below which the bound of a node's must be, unless "
-       "the cut "
-       "is full; 0: only its size limits it; default: lightcuts, mdlc 0.02, stochastic "
+       "the cut is full; 0: only its size limits it; default: lightcuts, mdlc 0.02, stochastic "
        "0. illumcut: share of what pixels have in a coarse picture, below which the bound "
        "of a pair of nodes must be; 0: all lights; default: 0.01")
       ->type_name("R")

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/gather/pixel_range.h"
 
 namespace lobelia::gather {
 namespace {
@@ -44,16 +45,15 @@ class LightPairs::Run {
       : pairs_(pairs),
         settings_(pairs.settings_),
         receivers_(receivers),
+        range_(pixelRangeOf(receivers)),
         parts_(parts),
         context_(context),
         scene_{pairs.tracer_,   pairs.lights_,          pairs.spheres_,
                settings_.share, settings_.gather.clamp, settings_.seed},
         estimateScene_{pairs.tracer_,     pairs.lights_,          pairs.spheres_,
                        Share::visibility, settings_.gather.clamp, settings_.seed} {
-    uint32_t most = 0;
-    for (const ReceiverPoint& point : receivers.points) most = std::max(most, point.pixel);
-    pixels_.resize(size_t{most} + 1);
-    for (const ReceiverPoint& point : receivers.points) pixels_[point.pixel].used = true;
+    pixels_.resize(range_.size);
+    for (const ReceiverPoint& point : receivers.points) pixels_[range_.at(point.pixel)].used = true;
     radiance_.resize(receivers.points.size());
     if (parts != nullptr) parts->reset(receivers.points.size());
     const StageTimer timer(context, "trees");
@@ -155,7 +155,7 @@ class LightPairs::Run {
   }
 
   Pixel& pixelOf(const Job& job, uint32_t i) {
-    return pixels_[job.receivers->receivers.points[job.tile().first + i].pixel];
+    return pixels_[range_.at(job.receivers->receivers.points[job.tile().first + i].pixel)];
   }
 
   // Light of the first levels of the light trees, in strips of receivers.
@@ -255,6 +255,7 @@ class LightPairs::Run {
   const LightPairs& pairs_;
   const PairGatherSettings& settings_;
   const Receivers& receivers_;
+  const PixelRange range_;
   GatherParts* parts_;
   Context& context_;
   const PairScene scene_, estimateScene_;  // estimates are each receiver's own

@@ -32,7 +32,7 @@ GatherTree::GatherTree(const Receivers& receivers, size_t begin, size_t end, con
       node.place = places[tree_.item(tree_.nodes()[i].first)];
       const PointStrip& strip = tile.strips[node.place / kStrip];
       const Rgb weight = receivers.points[strip.point[node.place % kStrip]].weight;
-      const Rgb size = max(weight, Rgb(0.f) - weight);
+      const Rgb size = sizeOf(weight);
       node.strength = luminance(size);
       node.most = maxComponent(size);
     } else {

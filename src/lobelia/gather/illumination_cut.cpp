@@ -8,6 +8,7 @@
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
 #include "lobelia/gather/illumination_tile.h"
+#include "lobelia/gather/pixel_range.h"
 
 namespace lobelia::gather {
 namespace {
@@ -85,12 +86,11 @@ class IlluminationCut::Run {
     estimateRays_.assign(whole_.order.size(), 0);
     forTiles("coarse picture",
              [&](IlluminationTile* tile, size_t) { tile->estimate(light, estimateRays_); });
-    uint32_t most = 0;
-    for (const ReceiverPoint& point : whole_.receivers.points) most = std::max(most, point.pixel);
-    std::vector<double> pixels(size_t{most} + 1);
+    const PixelRange range = pixelRangeOf(whole_.receivers);
+    std::vector<double> pixels(range.size);
     std::vector<uint8_t> used(pixels.size());
     for (size_t i = 0; i < light.size(); ++i) {
-      const uint32_t pixel = whole_.receivers.points[i].pixel;
+      const size_t pixel = range.at(whole_.receivers.points[i].pixel);
       pixels[pixel] += light[i];
       used[pixel] = 1;
     }
@@ -99,9 +99,9 @@ class IlluminationCut::Run {
                             std::count(used.begin(), used.end(), uint8_t{1}), 1));
     std::vector<float> thresholds;
     for (const ReceiverPoint& point : whole_.receivers.points)
-      thresholds.push_back(
-          static_cast<float>(cut_.settings_.threshold *
-                             std::max(std::abs(pixels[point.pixel]), double{kFloorShare} * mean)));
+      thresholds.push_back(static_cast<float>(
+          cut_.settings_.threshold *
+          std::max(std::abs(pixels[range.at(point.pixel)]), double{kFloorShare} * mean)));
     return thresholds;
   }
 

@@ -46,13 +46,7 @@ bool IlluminationTile::refinesLights(const TreePair& pair, const LightForest::Tr
 }
 
 void IlluminationTile::refine(const TreePair& pair, const LightForest::Tree& lights) {
-  if (refinesLights(pair, lights)) {
-    active_.push_back({pair.receivers, lights.tree.left(pair.lights)});
-    active_.push_back({pair.receivers, lights.tree.right(pair.lights)});
-  } else {
-    active_.push_back({tree_.tree.left(pair.receivers), pair.lights});
-    active_.push_back({tree_.tree.right(pair.receivers), pair.lights});
-  }
+  splitPair(tree_.tree, lights, pair, refinesLights(pair, lights), &active_);
 }
 
 // Upper bounds of the batch.
@@ -63,9 +57,7 @@ void IlluminationTile::bound(const LightForest::Tree& lights) {
   uppers_.resize(batch_.size());
   bounder_.bound(bounded_, lights.lightClass, tree_.glossy, uppers_.data());
   tally_.evaluations += batch_.size();
-  const bool clamped =
-      lights.lightClass != LightClass::directional && lights.lightClass != LightClass::spherical;
-  if (!(scene_.settings.clamp > 0) || !clamped) return;
+  if (!(scene_.settings.clamp > 0) || !clampBounds(lights.lightClass)) return;
   const float clamp = scene_.settings.clamp * tree_.mostWeight;
   for (size_t i = 0; i < batch_.size(); ++i) {
     const trees::BoundNode& q = *bounded_[i].lights;
@@ -227,8 +219,11 @@ void IlluminationTile::gather(std::span<const float> thresholds, std::span<Rgb> 
     for (size_t i = 0; i < batch_.size(); ++i) {
       const TreePair& pair = batch_[i];
       const trees::BoundNode& q = lights.tree.nodes()[pair.lights];
-      if (uppers_[i] <= 0 && !lights.apart) continue;
-      const bool strong = uppers_[i] > least[pair.receivers - node_] || lights.apart;
+      const float most = least[pair.receivers - node_];
+      // Bounds of spherical lights underflow where their lobes have tails.
+      const bool whole = lights.apart || (lights.lightClass == LightClass::spherical && most <= 0);
+      if (uppers_[i] <= 0 && !whole) continue;
+      const bool strong = uppers_[i] > most || whole;
       if (q.leaf() || !strong) {
         accepted_.push_back({pair, strong});
         const uint64_t receivers = node(pair.receivers).count;

@@ -156,7 +156,10 @@ void Lightcuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
       const uint64_t before = tally->rays;
       radiance[i] += receivers.points[i].weight * gather.run(i);
       if (parts == nullptr) continue;
-      partGather.add(gather.tile(), gather.chosen(), again, &partsTally);
+      if (parts->byType || parts->groupCount > 0)
+        partGather.add(gather.tile(), gather.chosen(), again, &partsTally);
+      tally->rays += partsTally.rays;
+      partsTally.rays = 0;
       if (parts->countRays) parts->rays[i] = static_cast<uint32_t>(tally->rays - before);
     }
     gather.countPairs();

@@ -32,7 +32,7 @@ class Lightcuts : public PreparedGather {
             Context& context);
 
   // Also counts "node_pairs_visited" (nodes whose bound was computed) and "cut_lights" (nodes of
-  // the cuts). Parts cost the rays of the cut once more.
+  // the cuts). Groups and types cost the rays of the cut once more, which count, too.
   void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
               Context& context, GatherParts* parts) const override;
 

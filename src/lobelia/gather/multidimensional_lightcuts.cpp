@@ -64,7 +64,7 @@ class MultidimensionalLightcuts::PixelGather {
     const int64_t start = nanosecondsNow(), traced = tally_.visibilityNs + tally_.shadeNs;
     rays_ = rays;
     tile_ = makeTile(receivers_, begin, end);
-    if (tile_.strips.empty()) return;
+    if (tile_.strips.empty()) return cut_.clear();
     if (!cuts_.lights_.spherical.empty()) addSampling(receivers_, &tile_);
     const uint64_t seed = hashCombine(cuts_.settings_.seed, receivers_.points[begin].pixel);
     tree_.emplace(receivers_, begin, end, tile_, scale_, seed);
@@ -219,6 +219,7 @@ void MultidimensionalLightcuts::gather(const Receivers& receivers, uint32_t only
   std::optional<GatherParts> ordered;
   std::vector<Rgb> light(points), again;  // the latter by the parts' own sums, which are not wanted
   std::vector<uint32_t> rays, same;
+  const bool takenApart = parts != nullptr && (parts->byType || parts->groupCount > 0);
   if (parts != nullptr) {
     ordered = *parts;
     again.resize(points);
@@ -237,13 +238,14 @@ void MultidimensionalLightcuts::gather(const Receivers& receivers, uint32_t only
           const size_t first = groups.begins[g], last = groups.begins[g + 1];
           if (!holdsPixel(groups.receivers, first, last, onlyPixel)) continue;
           gather.run(first, last, light, rays);
-          for (size_t i = first; i < last && ordered; ++i)
+          for (size_t i = first; i < last && takenApart; ++i)
             partGather.add(partGather.tileOf(i, i + 1), gather.chosen(i), again, &partsTally);
         }
+        tally->rays += partsTally.rays;
       });
   for (size_t i = 0; i < points; ++i) radiance[groups.order[i]] += light[i];
   if (parts == nullptr) return;
-  if (parts->countRays) ordered->rays = rays;
+  for (size_t i = 0; i < rays.size(); ++i) ordered->rays[i] += rays[i];
   parts->setOrdered(*ordered, groups.order, points);
 }
 

@@ -38,8 +38,8 @@ class MultidimensionalLightcuts : public PreparedGather {
 
   // Also counts "node_pairs_visited" (pairs of nodes whose bound was computed), "cut_lights" and
   // "receiver_clusters" (pairs of the cuts), "clustered_lights" and "clustered_receivers" (their
-  // lights, their receivers). Books gather trees to "traverse". Parts cost the rays of the cut once
-  // more.
+  // lights, their receivers). Books gather trees to "traverse". Groups and types cost the rays of
+  // the cut once more, which count, too.
   void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
               Context& context, GatherParts* parts) const override;
 

@@ -7,6 +7,10 @@ namespace lobelia::gather {
 
 class PreparedGather {
  public:
+  PreparedGather() = default;
+  // Strategies have members that point at others.
+  PreparedGather(const PreparedGather&) = delete;
+  PreparedGather& operator=(const PreparedGather&) = delete;
   virtual ~PreparedGather() = default;
   // Adds to radiance[i] the light that receiver point i sends to its pixel (weight included), as
   // gatherAll() does, to whose statistics strategies add their own. onlyPixel:

@@ -79,8 +79,7 @@ void ProductCut::boundFresh(const GatherTree& receivers) {
     uppers_.resize(nodes_.size());
     bounder_.bound(nodes_, tree.lightClass, receivers.glossy(), uppers_.data());
     evaluations_ += nodes_.size();
-    const bool clamped =
-        tree.lightClass != LightClass::directional && tree.lightClass != LightClass::spherical;
+    const bool clamped = settings_.clamp > 0 && clampBounds(tree.lightClass);
     for (size_t i = 0; i < nodes_.size(); ++i) {
       ProductPair& pair = fresh_[places_[i]];
       const trees::BoundNode& p = *nodes_[i].receivers;
@@ -88,8 +87,7 @@ void ProductCut::boundFresh(const GatherTree& receivers) {
       pair.power = luminance(tree.power[pair.lights]) * receivers.strength(pair.receivers);
       float upper = uppers_[i];
       // Of glossy lights, whose cosine lobe is 0, the sum of intensities.
-      if (settings_.clamp > 0 && clamped)
-        upper = std::min(upper, settings_.clamp * (q.cosine + q.peak));
+      if (clamped) upper = std::min(upper, settings_.clamp * (q.cosine + q.peak));
       if (tree.apart) upper = kBoundInfinity;
       upper = std::min(upper * receivers.mostStrength(pair.receivers), kBoundInfinity);
       pair.upper = p.leaf() && q.leaf() ? 0 : std::max(upper, kLeastBound);

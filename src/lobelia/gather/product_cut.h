@@ -52,6 +52,7 @@ class ProductCut {
     cut_.insert(cut_.end(), heap_.begin(), heap_.end());
   }
 
+  void clear() { cut_.clear(); }
   std::span<const ProductPair> pairs() const { return cut_; }
   uint64_t evaluations() const { return evaluations_; }  // of bounds
 

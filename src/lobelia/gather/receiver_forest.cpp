@@ -4,6 +4,7 @@
 
 #include "lobelia/bsdf/lobe_kind.h"
 #include "lobelia/gather/sphere.h"
+#include "lobelia/gather/whole_receivers.h"
 
 namespace lobelia::gather {
 namespace {
@@ -25,18 +26,19 @@ Vec3f litSide(const ReceiverPoint& point, const Lobe& lobe) {
 BoundItem itemOf(const Receivers& receivers, size_t i) {
   const ReceiverPoint& point = receivers.points[i];
   const SamplingLobes lobes = samplingLobes(receiverBsdf(receivers, point), point.wo);
+  const Rgb weight = sizeOf(point.weight);
   const Rgb color =
-      point.weight * (lobes.gaussianCount > 0 ? lobes.gaussians[0].color : lobes.diffuseColor);
+      weight * (lobes.gaussianCount > 0 ? lobes.gaussians[0].color : lobes.diffuseColor);
   const float most = maxComponent(color);
   BoundItem item;
   item.p = point.p;
   item.n = litSide(point, receivers.lobes[point.firstLobe]);
   if (most > 0) item.mean = luminance(color) / most, item.least = minComponent(color) / most;
-  item.cosine = maxComponent(point.weight * lobes.diffuseColor);
+  item.cosine = maxComponent(weight * lobes.diffuseColor);
   item.gaussianCount = lobes.gaussianCount;
   for (int g = 0; g < lobes.gaussianCount; ++g) {
     const PreparedSphere::Gaussian& from = lobes.gaussians[g];
-    item.gaussians[g] = {from.axis, from.sharpness, maxComponent(point.weight * from.color)};
+    item.gaussians[g] = {from.axis, from.sharpness, maxComponent(weight * from.color)};
   }
   return item;
 }
@@ -44,9 +46,10 @@ BoundItem itemOf(const Receivers& receivers, size_t i) {
 ClampedLight clampedOf(const Receivers& receivers, size_t i) {
   const ReceiverPoint& point = receivers.points[i];
   const SamplingLobes lobes = samplingLobes(receiverBsdf(receivers, point), point.wo);
+  const Rgb weight = sizeOf(point.weight);
   const Rgb lobe = lobes.gaussianCount > 0 ? lobes.gaussians[0].color : lobes.diffuseColor;
-  const Rgb light = maxComponent(lobe) > 0 ? point.weight * lobe / maxComponent(lobe) : Rgb{};
-  return {maxComponent(point.weight), luminance(light), minComponent(light)};
+  const Rgb light = maxComponent(lobe) > 0 ? weight * lobe / maxComponent(lobe) : Rgb{};
+  return {maxComponent(weight), luminance(light), minComponent(light)};
 }
 
 // Children come after their parent in preorder.

@@ -17,16 +17,13 @@ void addTiles(const trees::BoundTree& tree, uint32_t node, std::vector<uint32_t>
   addTiles(tree, tree.right(node), tiles);
 }
 
-// Filters have weights below 0, too.
-float sizeOf(Rgb weight) { return maxComponent(max(weight, Rgb(0.f) - weight)); }
-
 // One by one: which side of a receiver is lit, its strip knows.
 std::vector<BoundItem> itemsOf(const Receivers& receivers, const std::vector<uint32_t>& points) {
   std::vector<BoundItem> items(points.size());
   parallelFor(points.size(), 64, [&](size_t i) {
     const Tile tile = makeTile(receivers, points[i], points[i] + 1);
     items[i] = receiverItem(receivers, points[i], tile.strips[0], 0);
-    const float weight = sizeOf(receivers.points[points[i]].weight);
+    const float weight = maxComponent(sizeOf(receivers.points[points[i]].weight));
     items[i].cosine *= weight;
     for (int g = 0; g < items[i].gaussianCount; ++g) items[i].gaussians[g].amplitude *= weight;
   });
@@ -60,7 +57,8 @@ WholeReceivers plantWholeReceivers(const Receivers& receivers, float scale) {
       out.order.push_back(points[i]);
       append(receivers, points[i], &out.receivers);
       tree.glossy = tree.glossy || items[i].gaussianCount > 0;
-      tree.mostWeight = std::max(tree.mostWeight, sizeOf(receivers.points[points[i]].weight));
+      tree.mostWeight =
+          std::max(tree.mostWeight, maxComponent(sizeOf(receivers.points[points[i]].weight)));
     }
     addTiles(tree.tree, 0, &tree.tiles);
   }

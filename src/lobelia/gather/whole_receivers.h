@@ -13,6 +13,9 @@
 
 namespace lobelia::gather {
 
+// Of a receiver's weight, for bounds: filters have weights below 0, too.
+inline Rgb sizeOf(Rgb weight) { return max(weight, Rgb(0.f) - weight); }
+
 struct WholeReceivers {
   struct Tree {
     uint32_t first = 0;    // of its receivers, which are in the leaves' order
