@@ -26,7 +26,8 @@ struct GatherSettings {
 bool holdsPixel(const Receivers& receivers, size_t begin, size_t end, uint32_t pixel);
 
 // Parts of what is gathered, when asked for. The whole sum is computed all the same, to the same
-// bits; parts cost their shading once more, no rays.
+// bits; parts cost their shading once more, of Lightcuts and its kin, which shade what they trace,
+// also its rays.
 struct GatherParts {
   // Light's class x receiver's lobes: diffuse (with sheen and diffuse transmission) or glossy.
   static constexpr size_t kTypes = 10;  // [2 * class + lobes], classes in the order of LightClass
