@@ -332,6 +332,11 @@ size_t drawCutLights(const g::CutReceivers& receivers, int representatives,
   return importance.evaluations() + compared;
 }
 
+void estimateNodes(const g::CutReceivers& receivers, int representatives, float floor,
+                   std::span<const LightNode* const> nodes, float* values) {
+  Importance(receivers, representatives, floor, 1).evaluate(nodes, values);
+}
+
 float estimateAll(const g::CutReceivers& receivers, int representatives,
                   std::span<const LightTree> trees, const g::CutSettings& settings, size_t nodes,
                   g::CutScratch* scratch, uint64_t* evaluations) {
@@ -347,6 +352,7 @@ LOBELIA_CORE_END
 namespace lobelia {
 HWY_EXPORT(drawCutLights);
 HWY_EXPORT(estimateAll);
+HWY_EXPORT(estimateNodes);
 }  // namespace lobelia
 
 namespace lobelia::gather {
@@ -357,6 +363,11 @@ size_t drawCutLights(const CutReceivers& receivers, int representatives,
                      uint64_t seed, CutScratch* scratch, std::vector<CutLight>* lights) {
   return HWY_DYNAMIC_DISPATCH(lobelia::drawCutLights)(receivers, representatives, trees, dominant,
                                                       settings, seed, scratch, lights);
+}
+
+void estimateNodes(const CutReceivers& receivers, int representatives, float floor,
+                   std::span<const trees::LightNode* const> nodes, float* values) {
+  HWY_DYNAMIC_DISPATCH(lobelia::estimateNodes)(receivers, representatives, floor, nodes, values);
 }
 
 float estimateAll(const CutReceivers& receivers, int representatives,

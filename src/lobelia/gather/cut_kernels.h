@@ -50,6 +50,11 @@ float estimateAll(const CutReceivers& receivers, int representatives,
                   std::span<const trees::LightTree> trees, const CutSettings& settings,
                   size_t nodes, CutScratch* scratch, uint64_t* evaluations);
 
+// What each node contributes to the receivers, roughly, by which cuts and lights are chosen: the
+// root of the sum of squares over representatives of theirs. values: as many as nodes.
+void estimateNodes(const CutReceivers& receivers, int representatives, float floor,
+                   std::span<const trees::LightNode* const> nodes, float* values);
+
 // By one cut of several trees, no light twice. dominant: lights that may make much of what the
 // receivers get; those that do are taken as they are, at most as many as the cut may have nodes.
 // seed: of what is drawn. representatives: of the receivers, by which lights are drawn below the
