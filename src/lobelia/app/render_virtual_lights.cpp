@@ -250,9 +250,10 @@ class VirtualLightRender {
     shape.fullWidth = film_.fullWidth, shape.fullHeight = film_.fullHeight;
     shape.x0 = film_.x0, shape.y0 = film_.y0;
     shape.width = film_.width, shape.height = film_.height;
-    const auto [y0, y1] = plan_.rows(at_.band, film_);
+    const std::pair<int, int> rows = plan_.rows(at_.band, film_);
     return traceTogether(plan_, [&](const EyeSettings& eye) {
-      return traceReceivers(tracer_, emitters_, camera_, eye, y0, y1, shape, context_);
+      return traceReceivers(tracer_, emitters_, camera_, eye, rows.first, rows.second, shape,
+                            context_);
     });
   }
 
