@@ -90,10 +90,11 @@ class LightReplay {
   }
 
   void renderSample(int sample, int band) {
-    const auto [y0, y1] = plan_.rows(band, film_);
+    const std::pair<int, int> rows = plan_.rows(band, film_);
     const Rgb direct = film_.rgb(pixel_, "direct"), indirect = film_.rgb(pixel_, "indirect");
     const Receivers receivers = traceTogether(plan_, [&](const EyeSettings& eye) {
-      return traceReceivers(run_.tracer, run_.emitters, camera_, eye, y0, y1, film_, context_);
+      return traceReceivers(run_.tracer, run_.emitters, camera_, eye, rows.first, rows.second,
+                            film_, context_);
     });
     const bool shown = all_ || sample < kReplaySamples;
     if (shown) {
