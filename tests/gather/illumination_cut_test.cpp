@@ -18,19 +18,7 @@ class IlluminationCutGather : public StrategyTest {
     settings_.seed = seed;
     return std::make_unique<IlluminationCut>(*use_, lights_, settings_, context_);
   }
-  std::vector<Rgb> all() {
-    std::vector<Rgb> radiance(receivers_.points.size());
-    gatherAll(*use_, receivers_, lights_, gather_, radiance, context_);
-    return radiance;
-  }
-  template <class F>
-  uint64_t growth(const char* name, const F& f) {
-    const uint64_t before = context_.statistics.count(name);
-    f();
-    return context_.statistics.count(name) - before;
-  }
   IlluminationCutSettings settings_;
-  const Tracer* use_ = &tracer_;
 };
 
 class IlluminationCutOfWalls : public IlluminationCutGather {
@@ -70,17 +58,7 @@ TEST_F(IlluminationCutGather, ThresholdZeroOfSeveralLobesAndDepths) {
 // Every class of lights by itself keeps to the sum where lights stand for others, too.
 TEST_F(IlluminationCutGather, EveryClassAlone) {
   settings_.threshold = 0.01;
-  const VirtualLights lights = lights_;
-  for (const LightClass lightClass :
-       {LightClass::omni, LightClass::directional, LightClass::diffuse, LightClass::glossy}) {
-    lights_ = lights;
-    if (lightClass != LightClass::omni) lights_.omni.clear();
-    if (lightClass != LightClass::directional) lights_.directional.clear();
-    if (lightClass != LightClass::diffuse)
-      lights_.diffuse.clear(), lights_.diffuseDepthEnds.clear();
-    if (lightClass != LightClass::glossy) lights_.glossy.clear(), lights_.glossyDepthEnds.clear();
-    EXPECT_LT(relativeError(some(), all()), 0.03) << static_cast<int>(lightClass);
-  }
+  withEveryClassAlone([&] { EXPECT_LT(relativeError(some(), all()), 0.03); });
 }
 
 // Lights whose directions have a pattern stand for themselves, at any threshold.

@@ -69,17 +69,7 @@ TEST_F(LightcutsGather, CutsOfFixedSizeAreUnbiasedOverRepresentatives) {
 
 TEST_F(LightcutsGather, EveryClassAlone) {
   settings_.threshold = 0.01f;
-  const VirtualLights lights = lights_;
-  for (const LightClass lightClass :
-       {LightClass::omni, LightClass::directional, LightClass::diffuse, LightClass::glossy}) {
-    lights_ = lights;
-    if (lightClass != LightClass::omni) lights_.omni.clear();
-    if (lightClass != LightClass::directional) lights_.directional.clear();
-    if (lightClass != LightClass::diffuse)
-      lights_.diffuse.clear(), lights_.diffuseDepthEnds.clear();
-    if (lightClass != LightClass::glossy) lights_.glossy.clear(), lights_.glossyDepthEnds.clear();
-    EXPECT_LT(relativeError(some(), all()), 0.02) << static_cast<int>(lightClass);
-  }
+  withEveryClassAlone([&] { EXPECT_LT(relativeError(some(), all()), 0.02); });
 }
 
 // A node costs one ray at most, as one of two children shares its parent's light.

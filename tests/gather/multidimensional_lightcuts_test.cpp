@@ -24,11 +24,6 @@ class MultidimensionalGather : public StrategyTest {
     settings_.seed = seed;
     return std::make_unique<MultidimensionalLightcuts>(*use_, lights_, settings_, context_);
   }
-  std::vector<Rgb> all() {
-    std::vector<Rgb> radiance(receivers_.points.size());
-    gatherAll(*use_, receivers_, lights_, gather_, radiance, context_);
-    return radiance;
-  }
   std::vector<Rgb> pixels(const std::vector<Rgb>& light) const {
     std::vector<Rgb> sums;
     for (size_t i = 0; i < light.size(); ++i) {
@@ -37,14 +32,7 @@ class MultidimensionalGather : public StrategyTest {
     }
     return sums;
   }
-  template <class F>
-  uint64_t growth(const char* name, const F& f) {
-    const uint64_t before = context_.statistics.count(name);
-    f();
-    return context_.statistics.count(name) - before;
-  }
   MultidimensionalSettings settings_;
-  const Tracer* use_ = &tracer_;
 };
 
 class MultidimensionalOfWalls : public MultidimensionalGather {
@@ -141,17 +129,7 @@ TEST_F(MultidimensionalOfWalls, CutsOfFixedSizeAreUnbiasedOverRepresentatives) {
 TEST_F(MultidimensionalGather, EveryClassAlone) {
   settings_.threshold = 0.01;
   settings_.cutSize = 10'000;
-  const VirtualLights lights = lights_;
-  for (const LightClass lightClass :
-       {LightClass::omni, LightClass::directional, LightClass::diffuse, LightClass::glossy}) {
-    lights_ = lights;
-    if (lightClass != LightClass::omni) lights_.omni.clear();
-    if (lightClass != LightClass::directional) lights_.directional.clear();
-    if (lightClass != LightClass::diffuse)
-      lights_.diffuse.clear(), lights_.diffuseDepthEnds.clear();
-    if (lightClass != LightClass::glossy) lights_.glossy.clear(), lights_.glossyDepthEnds.clear();
-    EXPECT_LT(relativeError(pixels(some()), pixels(all())), 0.05) << static_cast<int>(lightClass);
-  }
+  withEveryClassAlone([&] { EXPECT_LT(relativeError(pixels(some()), pixels(all())), 0.05); });
 }
 
 // Filters weight samples below 0, too.

@@ -89,9 +89,32 @@ class StrategyTest : public testing::Test {
   // The strategy with the test's settings, the lights and a seed.
   virtual std::unique_ptr<gather::PreparedGather> prepare(uint64_t seed) = 0;
 
-  std::vector<Rgb> all() { return lightOfAll(tracer_, receivers_, lights_, gather_, context_); }
+  std::vector<Rgb> all() { return lightOfAll(*use_, receivers_, lights_, gather_, context_); }
   std::vector<Rgb> some(uint64_t seed = 0, GatherParts* parts = nullptr, uint32_t pixel = kAll) {
     return lightOf(*prepare(seed), receivers_, context_, parts, pixel);
+  }
+  // By how much f() lets a count grow.
+  template <class F>
+  uint64_t growth(const char* name, const F& f) {
+    const uint64_t before = context_.statistics.count(name);
+    f();
+    return context_.statistics.count(name) - before;
+  }
+  // f(): with the lights of one class after the other.
+  template <class F>
+  void withEveryClassAlone(const F& f) {
+    const VirtualLights lights = lights_;
+    for (const LightClass lightClass :
+         {LightClass::omni, LightClass::directional, LightClass::diffuse, LightClass::glossy}) {
+      SCOPED_TRACE(static_cast<int>(lightClass));
+      lights_ = lights;
+      if (lightClass != LightClass::omni) lights_.omni.clear();
+      if (lightClass != LightClass::directional) lights_.directional.clear();
+      if (lightClass != LightClass::diffuse)
+        lights_.diffuse.clear(), lights_.diffuseDepthEnds.clear();
+      if (lightClass != LightClass::glossy) lights_.glossy.clear(), lights_.glossyDepthEnds.clear();
+      f();
+    }
   }
   void expectSameForAnyThreads() {
     const std::vector<Rgb> many = some();
@@ -116,6 +139,7 @@ class StrategyTest : public testing::Test {
   Scene scene_ = randomTriangles(60, 11);
   Context context_;
   Tracer tracer_{scene_, context_};
+  const Tracer* use_ = &tracer_;
   VirtualLights lights_ = randomLights(150, 100.f, 5);
   GatherSettings gather_;
 };

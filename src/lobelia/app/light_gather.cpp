@@ -43,27 +43,10 @@ gather::PairGatherSettings pairSettings(const RenderOptions& options,
   return settings;
 }
 
-gather::LightcutsSettings lightcutsSettings(const RenderOptions& options,
-                                            const GatherSettings& common) {
-  gather::LightcutsSettings settings;
-  settings.gather = common;
-  settings.threshold = thresholdOf(options);
-  settings.cutSize = cutSizeOf(options);
-  return settings;
-}
-
-gather::MultidimensionalSettings multidimensionalSettings(const RenderOptions& options,
-                                                          const GatherSettings& common) {
-  gather::MultidimensionalSettings settings;
-  settings.gather = common;
-  settings.threshold = thresholdOf(options);
-  settings.cutSize = cutSizeOf(options);
-  return settings;
-}
-
-gather::StochasticSettings stochasticSettings(const RenderOptions& options,
-                                              const GatherSettings& common) {
-  gather::StochasticSettings settings;
+// Of the strategies whose cuts a threshold and a size limit.
+template <class Settings>
+Settings boundedCutSettings(const RenderOptions& options, const GatherSettings& common) {
+  Settings settings;
   settings.gather = common;
   settings.threshold = thresholdOf(options);
   settings.cutSize = cutSizeOf(options);
@@ -119,14 +102,17 @@ LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, c
       return prepareTrees<gather::LightCuts>(tracer, lights,
                                              cutSettings(options, settings_, camera), own, context);
     if (options.gather == "lightcuts")
-      return prepareTrees<gather::Lightcuts>(tracer, lights, lightcutsSettings(options, settings_),
-                                             own, context);
+      return prepareTrees<gather::Lightcuts>(
+          tracer, lights, boundedCutSettings<gather::LightcutsSettings>(options, settings_), own,
+          context);
     if (options.gather == "mdlc")
       return prepareTrees<gather::MultidimensionalLightcuts>(
-          tracer, lights, multidimensionalSettings(options, settings_), own, context);
+          tracer, lights, boundedCutSettings<gather::MultidimensionalSettings>(options, settings_),
+          own, context);
     if (options.gather == "stochastic")
       return prepareTrees<gather::StochasticLightcuts>(
-          tracer, lights, stochasticSettings(options, settings_), own, context);
+          tracer, lights, boundedCutSettings<gather::StochasticSettings>(options, settings_), own,
+          context);
     if (options.gather == "illumcut")
       return prepareTrees<gather::IlluminationCut>(
           tracer, lights, illumcutSettings(options, settings_), own, context);
