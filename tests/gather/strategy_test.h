@@ -7,6 +7,7 @@
 #include "gather/random_input.h"
 #include "gather/unbiased.h"
 #include "lobelia/base/parallel.h"
+#include "lobelia/gather/light_block.h"
 #include "lobelia/gather/prepared_gather.h"
 #include "lobelia/gather/tile.h"
 
@@ -103,6 +104,7 @@ class StrategyTest : public testing::Test {
   // f(): with the lights of one class after the other.
   template <class F>
   void withEveryClassAlone(const F& f) {
+    using gather::LightClass;
     const VirtualLights lights = lights_;
     for (const LightClass lightClass :
          {LightClass::omni, LightClass::directional, LightClass::diffuse, LightClass::glossy}) {

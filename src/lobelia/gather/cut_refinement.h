@@ -2,11 +2,12 @@
 // the largest bound is split until that is below a share of the estimate of all light, or the cut
 // is large enough.
 //
-// Deviations: nodes are split in batches of up to kSplits, so that bounds and values are computed
+// Deviations: nodes are split in batches (bounded_cut.h), so that bounds and values are computed
 // in registers and full packets of rays; the estimate that a batch is chosen by is the one before
 // it. There is a tree per class of lights, and all of them are cut together.
 #pragma once
 
+#include "lobelia/gather/bounded_cut.h"
 #include "lobelia/gather/receiver_nodes.h"
 
 namespace lobelia::gather {
@@ -18,6 +19,7 @@ struct CutNode {
   Rgb value;             // its light by the estimate
   Rgb representative;    // the light of what stands for it, alone
   float unshadowed = 0;  // NodeBound::value
+  static bool less(const CutNode& a, const CutNode& b);
 };
 
 struct RefinementSettings {
@@ -28,8 +30,6 @@ struct RefinementSettings {
 
 class CutRefinement {
  public:
-  static constexpr size_t kSplits = 16;
-
   CutRefinement(const LightForest& forest, const RefinementSettings& settings)
       : forest_(forest), settings_(settings), bounder_(forest, settings.clamp) {}
 
@@ -38,29 +38,27 @@ class CutRefinement {
   template <class Values>
   void run(const ReceiverNodes& receiver, const Values& values) {
     begin(receiver);
-    values(std::span<CutNode>(fresh_), std::span<const CutNode>());
-    take();
+    values(std::span<CutNode>(cut_.fresh), std::span<const CutNode>());
+    cut_.take();
     while (split(receiver)) {
-      values(std::span<CutNode>(fresh_), std::span<const CutNode>(parents_));
-      take();
+      values(std::span<CutNode>(cut_.fresh), std::span<const CutNode>(cut_.parents));
+      cut_.take();
     }
-    cut_.insert(cut_.end(), heap_.begin(), heap_.end());
+    cut_.end();
   }
 
-  std::span<const CutNode> cut() const { return cut_; }
+  std::span<const CutNode> cut() const { return cut_.items(); }
   uint64_t evaluations() const { return bounder_.evaluations(); }  // of bounds
 
  private:
   void begin(const ReceiverNodes& receiver);
   bool split(const ReceiverNodes& receiver);
   void boundFresh(const ReceiverNodes& receiver);
-  void take();
 
   const LightForest& forest_;
   const RefinementSettings settings_;
   NodeBounder bounder_;
-  double estimate_ = 0;  // luminance
-  std::vector<CutNode> heap_, cut_, fresh_, parents_;
+  BoundedCut<CutNode> cut_;
   std::vector<uint32_t> nodes_, places_;
   std::vector<NodeBound> bounds_;
 };

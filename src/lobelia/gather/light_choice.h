@@ -12,6 +12,10 @@ struct ChosenLight {
   size_t index = 0;      // in its class
   Rgb scale = Rgb(1.f);  // of its intensity
   bool shared = false;   // one shadow ray answers for all receivers of a tile of one strip
+  // In the order in which lights are gathered.
+  bool operator<(const ChosenLight& other) const {
+    return lightClass != other.lightClass ? lightClass < other.lightClass : index < other.index;
+  }
 };
 
 // The chosen lights with all that is known about their set; each keeps its class, depth and group.

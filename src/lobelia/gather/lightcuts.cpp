@@ -53,9 +53,7 @@ class Lightcuts::PointGather {
       const LightForest::Tree& tree = cuts_.forest_.trees[node.tree];
       lights.push_back({tree.lightClass, lightOf(node), Rgb(scaleOf(node))});
     }
-    std::sort(lights.begin(), lights.end(), [](const ChosenLight& a, const ChosenLight& b) {
-      return a.lightClass != b.lightClass ? a.lightClass < b.lightClass : a.index < b.index;
-    });
+    std::sort(lights.begin(), lights.end());
     return lights;
   }
   void countPairs() const {

@@ -98,9 +98,7 @@ class MultidimensionalLightcuts::PixelGather {
       lights.push_back({lightTree(pair).lightClass,
                         cuts_.representatives_.light(pair.tree, pair.lights), Rgb(scaleOf(pair))});
     }
-    std::sort(lights.begin(), lights.end(), [](const ChosenLight& a, const ChosenLight& b) {
-      return a.lightClass != b.lightClass ? a.lightClass < b.lightClass : a.index < b.index;
-    });
+    std::sort(lights.begin(), lights.end());
     return lights;
   }
 

@@ -1,35 +1,27 @@
 #include "lobelia/gather/product_cut.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "lobelia/gather/pair_traversal.h"
 
 namespace lobelia::gather {
-namespace {
 
-bool less(const ProductPair& a, const ProductPair& b) {
+bool ProductPair::less(const ProductPair& a, const ProductPair& b) {
   if (a.upper != b.upper) return a.upper < b.upper;
   if (a.power != b.power) return a.power < b.power;
   if (a.tree != b.tree) return a.tree > b.tree;
   return a.lights != b.lights ? a.lights > b.lights : a.receivers > b.receivers;
 }
 
-// A bound that no threshold lets pass but that of 0.
-constexpr float kLeastBound = 1e-37f;
-
-}  // namespace
-
 // The roots, and all lights that no other stands for.
 void ProductCut::begin() {
-  heap_.clear(), cut_.clear(), fresh_.clear(), parents_.clear();
-  estimate_ = 0;
+  cut_.clear();
   for (uint32_t t = 0; t < forest_.trees.size(); ++t) {
     const auto nodes = forest_.trees[t].tree.nodes();
     ProductPair pair;
     pair.tree = t;
     for (; pair.lights < (forest_.trees[t].apart ? nodes.size() : 1); ++pair.lights)
-      if (!forest_.trees[t].apart || nodes[pair.lights].leaf()) fresh_.push_back(pair);
+      if (!forest_.trees[t].apart || nodes[pair.lights].leaf()) cut_.fresh.push_back(pair);
   }
 }
 
@@ -42,26 +34,15 @@ bool ProductCut::refinesLights(const GatherTree& receivers, const ProductPair& p
 }
 
 bool ProductCut::split(const GatherTree& receivers) {
-  parents_.clear(), fresh_.clear();
-  const float most = static_cast<float>(settings_.threshold * std::abs(estimate_));
-  size_t size = heap_.size() + cut_.size();
-  while (!heap_.empty() && parents_.size() < kSplits && size < settings_.cutSize) {
-    if (heap_.front().upper <= most) break;
-    std::pop_heap(heap_.begin(), heap_.end(), less);
-    parents_.push_back(heap_.back());
-    heap_.pop_back();
-    const ProductPair& parent = parents_.back();
-    estimate_ -= double{luminance(parent.value)};
+  return cut_.split(settings_.threshold, settings_.cutSize, [&](const ProductPair& parent) {
     const bool lights = refinesLights(receivers, parent);
     const trees::BoundTree& tree = lights ? forest_.trees[parent.tree].tree : receivers.tree();
     const uint32_t node = lights ? parent.lights : parent.receivers;
     for (const uint32_t child : {tree.left(node), tree.right(node)}) {
-      ProductPair& pair = fresh_.emplace_back(parent);
+      ProductPair& pair = cut_.fresh.emplace_back(parent);
       (lights ? pair.lights : pair.receivers) = child;
     }
-    ++size;
-  }
-  return !parents_.empty();
+  });
 }
 
 // Tree by tree.
@@ -69,10 +50,10 @@ void ProductCut::boundFresh(const GatherTree& receivers) {
   for (uint32_t t = 0; t < forest_.trees.size(); ++t) {
     const LightForest::Tree& tree = forest_.trees[t];
     nodes_.clear(), places_.clear();
-    for (size_t i = 0; i < fresh_.size(); ++i) {
-      if (fresh_[i].tree != t) continue;
-      nodes_.push_back(
-          {&receivers.tree().nodes()[fresh_[i].receivers], &tree.tree.nodes()[fresh_[i].lights]});
+    for (size_t i = 0; i < cut_.fresh.size(); ++i) {
+      if (cut_.fresh[i].tree != t) continue;
+      nodes_.push_back({&receivers.tree().nodes()[cut_.fresh[i].receivers],
+                        &tree.tree.nodes()[cut_.fresh[i].lights]});
       places_.push_back(static_cast<uint32_t>(i));
     }
     if (nodes_.empty()) continue;
@@ -81,7 +62,7 @@ void ProductCut::boundFresh(const GatherTree& receivers) {
     evaluations_ += nodes_.size();
     const bool clamped = settings_.clamp > 0 && clampBounds(tree.lightClass);
     for (size_t i = 0; i < nodes_.size(); ++i) {
-      ProductPair& pair = fresh_[places_[i]];
+      ProductPair& pair = cut_.fresh[places_[i]];
       const trees::BoundNode& p = *nodes_[i].receivers;
       const trees::BoundNode& q = *nodes_[i].lights;
       pair.power = luminance(tree.power[pair.lights]) * receivers.strength(pair.receivers);
@@ -91,19 +72,6 @@ void ProductCut::boundFresh(const GatherTree& receivers) {
       if (tree.apart) upper = kBoundInfinity;
       upper = std::min(upper * receivers.mostStrength(pair.receivers), kBoundInfinity);
       pair.upper = p.leaf() && q.leaf() ? 0 : std::max(upper, kLeastBound);
-    }
-  }
-}
-
-void ProductCut::take(const GatherTree& receivers) {
-  boundFresh(receivers);
-  for (const ProductPair& pair : fresh_) {
-    estimate_ += double{luminance(pair.value)};
-    if (pair.upper > 0) {
-      heap_.push_back(pair);
-      std::push_heap(heap_.begin(), heap_.end(), less);
-    } else {
-      cut_.push_back(pair);
     }
   }
 }

@@ -5,10 +5,11 @@
 // The side is the one that extends further by places and directions (pair_traversal.h), whose bound
 // so shrinks more; the paper compares the sizes of boxes and direction cones, too.
 //
-// Deviations: pairs are split in batches of up to kSplits, as in cut_refinement.h; there is a tree
+// Deviations: pairs are split in batches (bounded_cut.h); there is a tree
 // per class of lights, and all of them are cut together.
 #pragma once
 
+#include "lobelia/gather/bounded_cut.h"
 #include "lobelia/gather/gather_tree.h"
 #include "lobelia/gather/light_forest.h"
 
@@ -22,6 +23,7 @@ struct ProductPair {
   float power = 0;                // luminance: equal bounds go by it
   Rgb value;                      // its light by the estimate
   Rgb representative;             // the light of what stands for both nodes, alone
+  static bool less(const ProductPair& a, const ProductPair& b);
 };
 
 struct ProductSettings {
@@ -32,8 +34,6 @@ struct ProductSettings {
 
 class ProductCut {
  public:
-  static constexpr size_t kSplits = 16;
-
   ProductCut(const LightForest& forest, const ProductSettings& settings)
       : forest_(forest), settings_(settings) {}
 
@@ -43,17 +43,19 @@ class ProductCut {
   template <class Values>
   void run(const GatherTree& receivers, const Values& values) {
     begin();
-    values(std::span<ProductPair>(fresh_), std::span<const ProductPair>());
-    take(receivers);
+    values(std::span<ProductPair>(cut_.fresh), std::span<const ProductPair>());
+    boundFresh(receivers);
+    cut_.take();
     while (split(receivers)) {
-      values(std::span<ProductPair>(fresh_), std::span<const ProductPair>(parents_));
-      take(receivers);
+      values(std::span<ProductPair>(cut_.fresh), std::span<const ProductPair>(cut_.parents));
+      boundFresh(receivers);
+      cut_.take();
     }
-    cut_.insert(cut_.end(), heap_.begin(), heap_.end());
+    cut_.end();
   }
 
   void clear() { cut_.clear(); }
-  std::span<const ProductPair> pairs() const { return cut_; }
+  std::span<const ProductPair> pairs() const { return cut_.items(); }
   uint64_t evaluations() const { return evaluations_; }  // of bounds
 
  private:
@@ -61,14 +63,12 @@ class ProductCut {
   bool split(const GatherTree& receivers);
   bool refinesLights(const GatherTree& receivers, const ProductPair& pair) const;
   void boundFresh(const GatherTree& receivers);
-  void take(const GatherTree& receivers);
 
   const LightForest& forest_;
   const ProductSettings settings_;
   WholeBounds bounder_;
-  double estimate_ = 0;  // luminance
   uint64_t evaluations_ = 0;
-  std::vector<ProductPair> heap_, cut_, fresh_, parents_;
+  BoundedCut<ProductPair> cut_;
   std::vector<NodePair> nodes_;
   std::vector<uint32_t> places_;
   std::vector<float> uppers_;
