@@ -17,6 +17,8 @@ extern "C" __attribute__((weak)) void __lsan_do_leak_check();  // there with Add
 namespace lobelia::test {
 namespace {
 
+constexpr char kLeaks[] = ".leaks";
+
 void redirect(const std::string& file, int flags, int to) {
   const int fd = open(file.c_str(), flags, 0666);
   if (fd < 0 || dup2(fd, to) < 0) _exit(126);
@@ -33,7 +35,11 @@ void redirect(const std::string& file, int flags, int to) {
   argv.push_back(nullptr);
   const int code = app::run(static_cast<int>(words.size()), argv.data());
   std::fflush(nullptr);
-  if (__lsan_do_leak_check) __lsan_do_leak_check();
+  if (__lsan_do_leak_check) {
+    // Speaks of the threads that libraries started when they were loaded, too: forks have none.
+    redirect(err + kLeaks, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+    __lsan_do_leak_check();  // ends the process when it finds something
+  }
   _exit(code);  // exit() would wait for threads of libraries, which a fork does not have
 }
 
@@ -61,8 +67,8 @@ void redirect(const std::string& file, int flags, int to) {
   }
 }
 
-// Forked before any test has run, so that it has no threads and is as the program is when it
-// starts.
+// Forked before any test has run, so that it is as the program is when it starts, but for the
+// threads of libraries.
 class Server : public testing::Environment {
  public:
   void SetUp() override {
@@ -124,8 +130,11 @@ ProgramResult runProgram(const std::string& arguments) {
   for (const std::string& word : words) request += word + '\0';
   int status = 0;
   if (words.empty() || !server->run(request, status)) return runProgramInShell(arguments);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readText(out),
-          readText(err)};
+  ProgramResult result{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+                       readText(out), readText(err)};
+  const std::string leaks = readText(err + kLeaks);
+  if (leaks.find("ERROR: ") != std::string::npos) result.err += leaks;
+  return result;
 }
 
 ProgramResult runProgramInShell(const std::string& arguments) {
