@@ -13,6 +13,7 @@
 #include "lobelia/gather/light_slices.h"
 #include "lobelia/gather/lightcuts.h"
 #include "lobelia/gather/multidimensional_lightcuts.h"
+#include "lobelia/gather/rich_lights.h"
 #include "lobelia/gather/stochastic_lightcuts.h"
 
 namespace lobelia::app {
@@ -32,6 +33,21 @@ void requireMode(const RenderOptions& options) {
   require("--sglc-bounds", !options.boundForm.empty(), "paper");
   require("--sglc-share", !options.shared.empty(), "paper");
   require("--sglc-children", !options.children.empty(), "paper");
+}
+
+void requireRadiance(const RenderOptions& options) {
+  const bool cube = richRadianceOf(options) == "cube";
+  if (options.richTexels > 0 && !cube)
+    throw UsageError(
+        "--richvpl-texels is for --richvpl-radiance cube; mixtures have "
+        "--richvpl-lobes");
+  if (options.richLobes > 0 && cube)
+    throw UsageError("--richvpl-lobes is for --richvpl-radiance vmf; cubes have --richvpl-texels");
+  if (options.richTexels % 2 != 0)
+    throw UsageError(
+        fmt::format("--richvpl-texels {} is odd; the half of a cube above a surface "
+                    "has half of its texels, so an even number such as {} is needed",
+                    options.richTexels, options.richTexels + 1));
 }
 
 }  // namespace
@@ -64,6 +80,10 @@ void requireGather(const RenderOptions& options) {
         Owned{"--bound", {"sglc"}, !options.bound.empty()},
         Owned{"--sglc-bounds", {"sglc"}, !options.boundForm.empty()},
         Owned{"--sglc-share", {"sglc"}, !options.shared.empty()},
+        Owned{"--richvpl-lights", {"richvpl"}, options.richLights > 0},
+        Owned{"--richvpl-radiance", {"richvpl"}, !options.richRadiance.empty()},
+        Owned{"--richvpl-texels", {"richvpl"}, options.richTexels > 0},
+        Owned{"--richvpl-lobes", {"richvpl"}, options.richLobes > 0},
         Owned{"--sglc-children", {"sglc"}, !options.children.empty()}}) {
     if (given &&
         std::find(strategies.begin(), strategies.end(), options.gather) == strategies.end())
@@ -71,6 +91,7 @@ void requireGather(const RenderOptions& options) {
                                    fmt::join(strategies, ", "), options.gather));
   }
   requireMode(options);
+  requireRadiance(options);
   requireSketch(options);
 }
 
@@ -82,6 +103,7 @@ size_t gatheredLights(size_t lights, const RenderOptions& options) {
   if (gathersPairs(options) || options.gather == "illumcut") return std::min(lights, kNodes);
   if (hasCutSize(options)) return std::min(lights, kCostOfChoice * cutSizeOf(options));
   if (options.gather == "lightslice") return std::min(lights, sliceColumnsOf(options));
+  if (options.gather == "richvpl") return std::min(lights, richLightsOf(options));
   return options.gather == "mrcs" ? std::min(lights, mostColumns(options)) : lights;
 }
 
@@ -144,6 +166,19 @@ size_t slicesOf(const RenderOptions& options) {
 }
 size_t sliceColumnsOf(const RenderOptions& options) {
   return options.columns > 0 ? options.columns : gather::SliceSettings().columns;
+}
+
+size_t richLightsOf(const RenderOptions& options) {
+  return options.richLights > 0 ? options.richLights : gather::RichSettings().lights;
+}
+std::string richRadianceOf(const RenderOptions& options) {
+  return options.richRadiance.empty() ? "vmf" : options.richRadiance;
+}
+int richTexelsOf(const RenderOptions& options) {
+  return options.richTexels > 0 ? options.richTexels : gather::RichSettings().texels;
+}
+int richLobesOf(const RenderOptions& options) {
+  return options.richLobes > 0 ? options.richLobes : gather::RichSettings().lobes;
 }
 
 }  // namespace lobelia::app

@@ -31,5 +31,9 @@ uint64_t memoryOf(const RenderOptions& options);
 std::string illumcutRaysOf(const RenderOptions& options);
 size_t slicesOf(const RenderOptions& options);
 size_t sliceColumnsOf(const RenderOptions& options);
+size_t richLightsOf(const RenderOptions& options);
+std::string richRadianceOf(const RenderOptions& options);
+int richTexelsOf(const RenderOptions& options);
+int richLobesOf(const RenderOptions& options);
 
 }  // namespace lobelia::app

@@ -9,6 +9,7 @@
 #include "lobelia/gather/light_slices.h"
 #include "lobelia/gather/lightcuts.h"
 #include "lobelia/gather/multidimensional_lightcuts.h"
+#include "lobelia/gather/rich_lights.h"
 #include "lobelia/gather/stochastic_lightcuts.h"
 
 namespace lobelia::app {
@@ -71,10 +72,22 @@ gather::SliceSettings sliceSettings(const RenderOptions& options, const GatherSe
   return settings;
 }
 
-// Pixels of which slices are made.
-size_t slicedPixels(const RenderOptions& options) {
-  constexpr size_t kPixelsPerSlice = 64;
-  return kPixelsPerSlice * slicesOf(options);
+gather::RichSettings richSettings(const RenderOptions& options, const GatherSettings& common) {
+  gather::RichSettings settings;
+  settings.gather = common;
+  settings.lights = richLightsOf(options);
+  settings.form =
+      richRadianceOf(options) == "cube" ? gather::RichForm::cube : gather::RichForm::vmf;
+  settings.texels = richTexelsOf(options);
+  settings.lobes = richLobesOf(options);
+  settings.memory = memoryOf(options);
+  return settings;
+}
+
+// Pixels of which slices are made, or for which places are chosen.
+size_t sampledPixels(const RenderOptions& options) {
+  constexpr size_t kPixelsPerSlice = 64, kPixelsOfPlaces = 128;
+  return options.gather == "richvpl" ? kPixelsOfPlaces : kPixelsPerSlice * slicesOf(options);
 }
 
 template <class Strategy, class Settings>
@@ -82,6 +95,14 @@ Prepared prepareTrees(const Tracer& tracer, const VirtualLights& lights, Setting
                       uint64_t seed, Context& context) {
   settings.seed = seed;
   return std::make_unique<Strategy>(tracer, lights, settings, context);
+}
+
+// The same of strategies that are made for a sample of the picture.
+template <class Strategy, class Settings>
+Prepared prepareFor(const Tracer& tracer, const Receivers& sample, const VirtualLights& lights,
+                    Settings settings, uint64_t seed, Context& context) {
+  settings.seed = seed;
+  return std::make_unique<Strategy>(tracer, sample, lights, settings, context);
 }
 
 }  // namespace
@@ -92,6 +113,13 @@ LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, c
     : tracer_(tracer), settings_(plan.gather), options_(options), parts_(std::move(parts)) {
   const uint64_t seed = hashCombine(hashCombine(context.seed, kStream), static_cast<uint64_t>(set));
   std::optional<Receivers> sample;  // for both parts
+  const auto sampled = [&]() -> const Receivers& {
+    if (!sample) {
+      const PixelSet pixels = choosePixelSample(camera, plan, sampledPixels(options), seed).pixels;
+      sample = traceSample(tracer, emitters, camera, plan, set, pixels, context);
+    }
+    return *sample;
+  };
   const auto prepare = [&](const VirtualLights& lights, uint64_t number) -> Prepared {
     const uint64_t own = hashCombine(seed, number);
     if (lights.size() == 0 || context.cancelled()) return nullptr;
@@ -116,14 +144,13 @@ LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, c
     if (options.gather == "illumcut")
       return prepareTrees<gather::IlluminationCut>(
           tracer, lights, illumcutSettings(options, settings_), own, context);
-    if (options.gather != "lightslice") return nullptr;
-    gather::SliceSettings settings = sliceSettings(options, settings_);
-    settings.seed = own;
-    if (!sample) {
-      const PixelSet pixels = choosePixelSample(camera, plan, slicedPixels(options), seed).pixels;
-      sample = traceSample(tracer, emitters, camera, plan, set, pixels, context);
-    }
-    return std::make_unique<gather::LightSlices>(tracer, *sample, lights, settings, context);
+    if (options.gather == "lightslice")
+      return prepareFor<gather::LightSlices>(tracer, sampled(), lights,
+                                             sliceSettings(options, settings_), own, context);
+    if (options.gather == "richvpl")
+      return prepareFor<gather::RichLights>(tracer, sampled(), lights,
+                                            richSettings(options, settings_), own, context);
+    return nullptr;
   };
   direct_ = prepare(parts_.direct, 0);
   if (options.component != "direct") indirect_ = prepare(parts_.indirect, 1);

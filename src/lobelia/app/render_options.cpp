@@ -152,7 +152,8 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("K")
       ->check(finiteNumber(0, 1000));
   c.add_option("--memory", o.memory,
-               "--gather mrcs, lightslice: memory for what is kept of all lights; units K, M, G; "
+               "--gather mrcs, lightslice: memory for what is kept of all lights; richvpl: for its "
+               "lights; units K, M, G; "
                "default: 2G")
       ->type_name("BYTES")
       ->transform(byteCount());
@@ -197,6 +198,25 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "not agree (sampled, the default), or of every receiver (full)")
       ->type_name("WHICH")
       ->check(oneOf({"sampled", "full"}));
+  c.add_option("--richvpl-lights", o.richLights,
+               "--gather richvpl: places that send out the light of all lights around them; "
+               "default: 1000")
+      ->type_name("N")
+      ->check(integerRange(1, int64_t{1} << 24));
+  c.add_option(
+       "--richvpl-radiance", o.richRadiance,
+       "--gather richvpl: light of a place by directions, as a cube map, or as a mixture of "
+       "Gaussian lobes (vmf, the default)")
+      ->type_name("FORM")
+      ->check(oneOf({"cube", "vmf"}));
+  c.add_option("--richvpl-texels", o.richTexels,
+               "--richvpl-radiance cube: texels along an edge, an even number; default: 16")
+      ->type_name("N")
+      ->check(integerRange(4, 128));
+  c.add_option("--richvpl-lobes", o.richLobes,
+               "--richvpl-radiance vmf: lobes of a place, at most; default: 8")
+      ->type_name("N")
+      ->check(integerRange(1, 256));
   c.add_option(
        "--cut-size", o.cutSize,
        "--gather sglc: nodes of a cluster's cut, at most; default: 1024. "

@@ -97,6 +97,13 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
     json["gather"]["slices"] = slicesOf(options);
     json["gather"]["columns"] = sliceColumnsOf(options);
   }
+  if (options.gather == "richvpl" && gathers) {
+    const double richLights = static_cast<double>(s.count("rich_lights"));
+    json["gather"]["radiance"] = richRadianceOf(options);
+    json["gather"]["rich_lights"] = s.count("rich_lights");
+    json["gather"]["bytes_per_rich_light"] =
+        ratio(static_cast<double>(s.count("rich_bytes")), richLights);
+  }
   if (gathers && hasCutSize(options)) json["gather"]["cut_size"] = cutSizeOf(options);
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
   json["seconds"] = secondsJson(s);

@@ -44,8 +44,9 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
       unused.push_back(fmt::format("{} has no effect: {}", name, why));
   };
   const bool virtualLights = usesVirtualLights(options);
-  report("--memory", options.gather != "mrcs" && options.gather != "lightslice",
-         "only --gather mrcs and lightslice keep more where there is room");
+  report("--memory",
+         options.gather != "mrcs" && options.gather != "lightslice" && options.gather != "richvpl",
+         "only --gather mrcs, lightslice and richvpl keep more where there is room");
   for (const char* name : kOfVirtualLights)
     report(name, !virtualLights, fmt::format("--lights {} has no virtual lights", options.lights));
   if (virtualLights) {

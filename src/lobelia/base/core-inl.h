@@ -5,7 +5,7 @@
 //    (namespace lobelia::N_AVX3 and so on; F = Vf, a register of floats, base/simd-inl.h), and
 //  - once for scalar code (namespace lobelia::core; F = float), which a GPU compiler can read too.
 // Core headers keep to: + - * / and comparisons on F, select(mask, a, b), min, max, abs, sqrt, exp,
-// log, fma-free arithmetic, V3<F>; branches are selects where both sides are cheap. They are never
+// log, floor, fma-free arithmetic, V3<F>; branches are selects where both sides are cheap. They are never
 // included by public headers (a public header must mean the same in every file).
 #if defined(LOBELIA_BASE_CORE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_BASE_CORE_INL_H_
@@ -51,6 +51,7 @@ LOBELIA_HD float min(float a, float b) { return a < b ? a : b; }
 LOBELIA_HD float max(float a, float b) { return a > b ? a : b; }
 LOBELIA_HD float abs(float a) { return a < 0 ? -a : a; }
 LOBELIA_HD float sqrt(float a) { return ::sqrtf(a); }
+LOBELIA_HD float floor(float a) { return ::floorf(a); }
 LOBELIA_HD float exp(float a) { return ::expf(a); }
 LOBELIA_HD float log(float a) { return ::logf(a); }
 

@@ -8,6 +8,10 @@
 
 namespace lobelia {
 
+namespace gather {
+class RichRadiance;
+}
+
 struct GatherSettings {
   // Upper limit of (light lobe / d^2) x receiver lobes with their cosine, by the largest channel of
   // the product; one factor for all channels. 0: off. Directional lights are not clamped.
@@ -20,6 +24,8 @@ struct GatherSettings {
   // same bits, others the same or nothing.
   static constexpr uint32_t kAllPixels = 0xffffffffu;
   uint32_t onlyPixel = kAllPixels;
+  // What diffuse light i sends out in place of its cosine lobe (rich_radiance.h); null: the lobe.
+  const gather::RichRadiance* rich = nullptr;
 };
 
 // Is the pixel (or any: kAllPixels) that of a point in [begin, end)?

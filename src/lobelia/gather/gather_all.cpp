@@ -24,6 +24,7 @@
 #include "lobelia/gather/gather.h"
 #include "lobelia/gather/kernels.h"
 #include "lobelia/gather/light_range.h"
+#include "lobelia/gather/rich_radiance.h"
 #include "lobelia/gather/tile_parts.h"
 
 namespace lobelia {
@@ -93,6 +94,8 @@ class TileGather {
       const uint32_t wanted = near ? near_.reaching(bounds, first, count) : ~0u;
       if (wanted == 0) continue;
       prepare(lights_, tracer_.scene(), lightClass, first, count, &block, spheres_, wanted);
+      if (settings_.rich != nullptr && lightClass == LightClass::diffuse)
+        settings_.rich->unpack(&block);
       allowPairs(tile, block, lights_, settings_, &pairs);
       if (parts != nullptr) parts->watchRays(&pairs);
       const int64_t start = nanosecondsNow();

@@ -203,6 +203,7 @@ void prepareChosen(const VirtualLights& lights, const Scene& scene, LightClass l
                    const std::vector<PreparedSphere>& shared, uint32_t wanted) {
   if (indices.size() > kBlockLights) throw std::invalid_argument("prepareChosen: too many");
   block->patterns.clear();
+  block->rich = nullptr;
   block->lightClass = lightClass;
   block->count = static_cast<int>(indices.size());
   std::copy(indices.begin(), indices.end(), block->index);

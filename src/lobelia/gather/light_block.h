@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "lobelia/gather/aligned_floats.h"
 #include "lobelia/gather/near_field.h"
 #include "lobelia/gather/sphere.h"
 #include "lobelia/path/emission_pattern.h"
@@ -33,6 +34,8 @@ struct PreparedLight {
   uint32_t pattern = kNoPattern;  // omni: index into LightBlock::patterns
 };
 
+class RichRadiance;
+
 inline constexpr size_t kBlockLights = 32;
 struct LightBlock {
   LightClass lightClass = LightClass::omni;
@@ -43,6 +46,11 @@ struct LightBlock {
   const PreparedSphere* spheres[kBlockLights];  // spherical: parallel to lights
   std::vector<PreparedSphere> ownSpheres;       // unless they are shared
   SphereShading sphereShading;
+  // Of diffuse lights: what they send out in place of a cosine lobe; null: nothing else. Their
+  // intensity is its peak (RichRadiance::unpack()).
+  const RichRadiance* rich = nullptr;
+  AlignedFloats richTexels;  // [light][channel][texel], a light's at multiples of richStride
+  size_t richStride = 0;
 };
 
 // PreparedLight::cutoff of a glossy light.

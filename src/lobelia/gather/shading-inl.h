@@ -45,6 +45,11 @@ HWY_INLINE Vf lightFactor(const g::PreparedLight& light, V3<Vf> wi, Vf inverseDi
   return geometry;
 }
 
+// rich_shading-inl.h
+HWY_INLINE Vf richFactor(const g::RichRadiance& rich, uint32_t index, Vf inverseDistance);
+void applyRich(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, float clamp,
+               PairScratch* pairs);
+
 template <g::LightClass kClass>
 void directions(const g::PointStrip& strip, size_t lane, const g::LightBlock& block,
                 PairScratch* pairs) {
@@ -58,7 +63,9 @@ void directions(const g::PointStrip& strip, size_t lane, const g::LightBlock& bl
       inverseDistance = Vf(1.f) / sqrt(dot(wi, wi));
       wi = wi * inverseDistance;
     }
-    Vf factor = lightFactor<kClass>(light, wi, inverseDistance);
+    Vf factor = kClass == g::LightClass::diffuse && block.rich != nullptr
+                    ? richFactor(*block.rich, block.index[pairs->light[i]], inverseDistance)
+                    : lightFactor<kClass>(light, wi, inverseDistance);
     if (strip.perturbed) {  // bumpShadow() of bsdf/bsdf.h
       const Vf c = dot(load(strip.base, lane), wi), c2 = max(c * c, Vf(1e-20f));
       const Vf alpha2 = Vf::load(strip.bumpAlpha2 + lane);
@@ -165,6 +172,13 @@ inline void applyPattern(const g::PointStrip& strip, size_t lane, const g::Prepa
   }
 }
 
+// The factor of pair i, where lobes and it are above the clamp.
+HWY_INLINE Vf clamped(const PairScratch& pairs, size_t i, Vf factor, float clamp) {
+  const Vf r = Vf::load(pairs.r[i].v), gg = Vf::load(pairs.g[i].v), b = Vf::load(pairs.b[i].v);
+  const Vf largest = factor * max(r, max(gg, b));
+  return select(largest > Vf(clamp), factor * (Vf(clamp) / largest), factor);
+}
+
 // Where values of pairs go: into sums over the lights...
 struct LaneSums {
   g::TileSums* sums;
@@ -213,12 +227,7 @@ void sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, 
   for (size_t i = 0; i < pairs->count; ++i) {
     const g::PreparedLight& light = block.lights[pairs->light[i]];
     Vf factor = Vf::load(pairs->factor[i].v);
-    if (kClamped && clamp > 0) {
-      const Vf r = Vf::load(pairs->r[i].v), gg = Vf::load(pairs->g[i].v),
-               b = Vf::load(pairs->b[i].v);
-      const Vf largest = factor * max(r, max(gg, b));
-      factor = select(largest > Vf(clamp), factor * (Vf(clamp) / largest), factor);
-    }
+    if (kClamped && clamp > 0) factor = clamped(*pairs, i, factor, clamp);
     if (kClass == g::LightClass::omni && light.pattern != g::PreparedLight::kNoPattern) {
       applyPattern(strip, lane, light, block.patterns[light.pattern], i, pairs);
     }
@@ -272,8 +281,10 @@ void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
         directions<kClass>(strip, lane, block, &pairs);
         addLobes(tile, strip, lane, &pairs);
       }
+      const bool rich = kClass == g::LightClass::diffuse && block.rich != nullptr;
+      if (rich) applyRich(strip, lane, block, clamp, &pairs);
       auto sink = sinkFor(out, s, lane, pairMasks);
-      sumUp<kClass>(strip, lane, block, clamp, &pairs, &sink, out);
+      sumUp<kClass>(strip, lane, block, rich ? 0.f : clamp, &pairs, &sink, out);
       sink.finish(s, lane);
     }
   }
