@@ -1,5 +1,5 @@
-// `render --gather lightslice`, `lightcuts`, `mdlc`, `stochastic` and `illumcut` as a user types
-// them.
+// `render --gather lightslice`, `lightcuts`, `mdlc`, `stochastic`, `illumcut` and `richvpl` as a
+// user types them.
 #include "app/render_test.h"
 #include "lobelia/film/metrics.h"
 
@@ -90,6 +90,30 @@ TEST_F(BaselinesRender, IlluminationCut) {
   EXPECT_LT(compare(full, all).l2, 1.1 * before);
 }
 
+TEST_F(BaselinesRender, RichVpls) {
+  const Film all = render(kBase, "all");
+  for (const std::string form : {"cube --richvpl-texels 32", "vmf"}) {
+    double before = 0.05;
+    for (const int lights : {60, 300, 1400}) {
+      const std::string name = std::to_string(lights);
+      const Film film = render(
+          kBase + "--gather richvpl --richvpl-lights " + name + " --richvpl-radiance " + form,
+          name);
+      const double error = compare(film, all).relmse;
+      EXPECT_LT(error, 0.6 * before) << form << " " << lights;
+      EXPECT_NEAR(compare(film, all).meanRatio, 1, 0.12) << form << " " << lights;
+      before = error;
+      const nlohmann::json stats = statistics(name);
+      EXPECT_EQ(stats["gather"]["rich_lights"], std::min(lights, 1400)) << form;
+      EXPECT_EQ(stats["gather"]["radiance"], form.substr(0, form.find(' ')));
+      EXPECT_GT(stats["gather"]["bytes_per_rich_light"], form == "vmf" ? 200 : 18000);
+      EXPECT_GT(stats["seconds"]["rows"], 0);
+      EXPECT_GT(stats["counts"]["shadow_rays"], 0);
+    }
+    EXPECT_LT(before, 0.002) << form;
+  }
+}
+
 // Samples share cuts: four of them take hardly more rays than one.
 TEST_F(BaselinesRender, MultidimensionalLightcuts) {
   const std::string start =
@@ -134,16 +158,29 @@ TEST_F(BaselinesRender, GoWithOtherOptions) {
   const std::string base = "--size 16x12 --spp 2 --num-lights 100 --clamp 1 --gather ";
   const std::string lightcuts = "lightcuts --threshold 0 --cut-size 3000";
   const std::string stochastic = "stochastic --cut-size 3000", slices = "lightslice --columns 3000";
+  const std::string rich = "richvpl --richvpl-lights 3000";  // a place for each light
   const std::string whole = "illumcut --threshold 0", mdlc = "mdlc --threshold 0 --cut-size 9000";
-  for (const auto& [strategy, part] :
-       {std::pair{lightcuts, "--crop 4,2,12,10"}, std::pair{slices, "--pixels 60"},
-        std::pair{stochastic, "--passes 2"}, std::pair{lightcuts, "--direct lights"},
-        std::pair{stochastic, "--max-depth 3"}, std::pair{slices, "--aov groups,types,cost"},
-        std::pair{lightcuts, "--lights vpl"}, std::pair{whole, "--crop 4,2,12,10"},
-        std::pair{whole, "--direct lights --pixels 60"}, std::pair{whole, "--max-depth 3"},
-        std::pair{mdlc, "--passes 1 --crop 4,2,12,10"}, std::pair{mdlc, "--passes 1 --pixels 60"},
-        std::pair{mdlc, "--passes 2 --direct lights"}, std::pair{mdlc, "--passes 1 --max-depth 3"},
-        std::pair{mdlc, "--passes 1 --aov groups,types,cost"}}) {
+  for (const auto& [strategy, part] : {std::pair{lightcuts, "--crop 4,2,12,10"},
+                                       std::pair{slices, "--pixels 60"},
+                                       std::pair{stochastic, "--passes 2"},
+                                       std::pair{lightcuts, "--direct lights"},
+                                       std::pair{stochastic, "--max-depth 3"},
+                                       std::pair{slices, "--aov groups,types,cost"},
+                                       std::pair{lightcuts, "--lights vpl"},
+                                       std::pair{whole, "--crop 4,2,12,10"},
+                                       std::pair{whole, "--direct lights --pixels 60"},
+                                       std::pair{whole, "--max-depth 3"},
+                                       std::pair{mdlc, "--passes 1 --crop 4,2,12,10"},
+                                       std::pair{mdlc, "--passes 1 --pixels 60"},
+                                       std::pair{mdlc, "--passes 2 --direct lights"},
+                                       std::pair{mdlc, "--passes 1 --max-depth 3"},
+                                       std::pair{mdlc, "--passes 1 --aov groups,types,cost"},
+                                       std::pair{rich, "--crop 4,2,12,10"},
+                                       std::pair{rich, "--pixels 60 --passes 2"},
+                                       std::pair{rich, "--direct lights"},
+                                       std::pair{rich, "--max-depth 3"},
+                                       std::pair{rich, "--aov groups,types,cost"},
+                                       std::pair{rich, "--lights vpl"}}) {
     const Film all = render(base + "all " + part, "all"),
                some = render(base + strategy + " " + part, "some");
     EXPECT_EQ(some.alpha, all.alpha) << part;
@@ -167,6 +204,15 @@ TEST_F(BaselinesRender, WrongUseSaysWhatWouldBeRight) {
   expectError("--gather lightcut", "lightcuts");
   expectError("--gather lightslice --num-lights 3000 --memory 1K", "--slices");
   expectError("--lights path --gather lightcuts", "--lights path");
+  expectError("--gather all --richvpl-lights 10", "--gather richvpl");
+  expectError("--gather richvpl --richvpl-radiance cubes", "cube");
+  expectError("--gather richvpl --richvpl-texels 8", "--richvpl-radiance cube");
+  expectError("--gather richvpl --richvpl-radiance cube --richvpl-lobes 8", "--richvpl-texels");
+  expectError("--gather richvpl --richvpl-radiance cube --richvpl-texels 9", "10 is needed");
+  expectError("--gather richvpl --richvpl-lobes 0", "--richvpl-lobes");
+  expectError("--gather richvpl --columns 10", "mrcs, lightslice");
+  expectError("--lights vsl --gather richvpl", "does not combine");
+  expectError("--gather richvpl --num-lights 3000 --memory 1K", "--richvpl-lights");
 }
 
 }  // namespace

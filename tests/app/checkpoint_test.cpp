@@ -141,6 +141,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"illumcut",
                            "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather illumcut "
                            "--aov direct,indirect,variance,cost,types"},
+                    Method{"richvpl",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather richvpl "
+                           "--richvpl-lights 60 --aov direct,indirect,variance,cost,types"},
+                    Method{"richvpl_cube",
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather richvpl "
+                           "--richvpl-lights 60 --richvpl-radiance cube --richvpl-texels 8 "
+                           "--aov direct,indirect,variance,cost"},
                     Method{"pairs",
                            "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather sglc "
                            "--sglc-mode paper --aov direct,indirect,variance,cost,types"},
@@ -188,6 +195,8 @@ TEST(CheckpointFile, SettingsOfAnotherChoiceAreNotNamed) {
             "--gather mrcs (now lightslice)");
   EXPECT_EQ(reasons("--gather sglc --cut-size 9", "--gather sglc --sglc-mode paper"),
             "--sglc-mode shared (now paper)");
+  EXPECT_EQ(reasons("--gather richvpl --richvpl-lobes 4", "--gather richvpl --richvpl-lights 9"),
+            "--richvpl-lights 1000 (now 9), --richvpl-lobes 4 (now 8)");
   EXPECT_EQ(reasons("--gather stochastic", "--lights path"), "--lights glossy (now path)");
   EXPECT_EQ(reasons("--gather lightcuts", "--gather lightcuts --threshold 0.1 --seed 2"),
             "--seed 0 (now 2), --threshold 0.02 (now 0.1)");

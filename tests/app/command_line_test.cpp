@@ -68,7 +68,7 @@ TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
        {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs", "vsl --gather sglc",
         "vpl --gather sglc --sglc-mode paper", "glossy --gather lightslice",
         "glossy --gather lightcuts", "glossy --gather mdlc", "glossy --gather stochastic",
-        "vsl --gather illumcut", "vpl --compensate", "photon"}) {
+        "vsl --gather illumcut", "glossy --gather richvpl", "vpl --compensate", "photon"}) {
     ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
                          " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
                   .exitCode,
@@ -138,7 +138,7 @@ TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
         "glossy --gather lightslice --columns 20 --slices 10",
         "vsl --gather lightcuts --cut-size 20", "vsl --gather mdlc --cut-size 20",
         "glossy --gather illumcut", "glossy --gather stochastic --cut-size 20",
-        "glossy --compensate", "photon"}) {
+        "glossy --gather richvpl --richvpl-lights 20", "glossy --compensate", "photon"}) {
     const auto render = [&](int threads, const char* seed) {
       const std::string file = folder / (std::to_string(threads) + seed + ".exr");
       const ProgramResult r =

@@ -211,6 +211,7 @@ TEST_F(RichGather, ErrorsFallWithPlaces) {
   lights_ = wallOfLights(3000, 4);
   const std::vector<Rgb> exact = all();
   settings_.spread = 1;
+  settings_.texels = 32;
   for (const RichForm form : {RichForm::cube, RichForm::vmf}) {
     settings_.form = form;
     settings_.gather = gather_;

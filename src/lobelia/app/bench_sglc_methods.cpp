@@ -13,6 +13,7 @@
 #include "lobelia/gather/light_slices.h"
 #include "lobelia/gather/lightcuts.h"
 #include "lobelia/gather/multidimensional_lightcuts.h"
+#include "lobelia/gather/rich_lights.h"
 #include "lobelia/gather/stochastic_lightcuts.h"
 
 namespace lobelia::app {
@@ -23,6 +24,7 @@ constexpr const char* kPaper = "sglc-paper";
 void setCutSize(RenderOptions& o, double v) { o.cutSize = static_cast<size_t>(v); }
 void setThreshold(RenderOptions& o, double v) { o.threshold = v; }
 void setColumns(RenderOptions& o, double v) { o.columns = static_cast<size_t>(v); }
+void setRichLights(RenderOptions& o, double v) { o.richLights = static_cast<size_t>(v); }
 
 // By the beginning of a method's key. Strategies that are not here have one point in figure 8,
 // that of their defaults.
@@ -34,6 +36,7 @@ const std::vector<std::pair<std::string, SglcQuality>>& qualities() {
   static const double columns = static_cast<double>(gather::SliceSettings().columns);
   static const double stochastic = static_cast<double>(gather::StochasticSettings().cutSize);
   static const double illumcut = gather::IlluminationCutSettings().threshold;
+  static const double rich = static_cast<double>(gather::RichSettings().lights);
   static const std::vector<std::pair<std::string, SglcQuality>> table{
       {kPaper, {"--threshold", threshold, {0.08, 0.04, 0.02, threshold}, setThreshold}},
       {"sglc", {"--cut-size", cut, {cut / 16, cut / 4, cut, 4 * cut}, setCutSize}},
@@ -42,6 +45,7 @@ const std::vector<std::pair<std::string, SglcQuality>>& qualities() {
       {"lightcuts", {"--threshold", lightcuts, {0.08, 0.04, lightcuts, 0.01}, setThreshold}},
       {"mdlc", {"--threshold", mdlc, {0.08, 0.04, mdlc, 0.01}, setThreshold}},
       {"illumcut", {"--threshold", illumcut, {0.08, 0.04, 0.02, illumcut}, setThreshold}},
+      {"richvpl", {"--richvpl-lights", rich, {rich / 4, rich, 4 * rich}, setRichLights}},
       {"stochastic", {"--cut-size", stochastic, {64, stochastic, 1024}, setCutSize}},
   };
   return table;
@@ -51,6 +55,13 @@ SglcMethod byMode(const std::string& mode) {
   return {"sglc-" + mode, "sglc, " + mode, [mode](RenderOptions& options) {
             options.gather = "sglc";
             options.cutMode = mode;
+          }};
+}
+
+SglcMethod byRadiance(const std::string& form) {
+  return {"richvpl-" + form, "richvpl, " + form, [form](RenderOptions& options) {
+            options.gather = "richvpl";
+            options.richRadiance = form;
           }};
 }
 
@@ -78,6 +89,8 @@ std::vector<SglcMethod> sglcMethods() {
     if (strategy.name == "all" || !gathersGlossyLights(strategy.name)) continue;
     if (strategy.name == "sglc") {
       for (const char* mode : {"shared", "unbiased", "paper"}) methods.push_back(byMode(mode));
+    } else if (strategy.name == "richvpl") {
+      for (const char* form : {"cube", "vmf"}) methods.push_back(byRadiance(form));
     } else if (strategy.name == "mrcs") {
       methods.push_back(byColumns());
     } else {

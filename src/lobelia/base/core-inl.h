@@ -5,8 +5,8 @@
 //    (namespace lobelia::N_AVX3 and so on; F = Vf, a register of floats, base/simd-inl.h), and
 //  - once for scalar code (namespace lobelia::core; F = float), which a GPU compiler can read too.
 // Core headers keep to: + - * / and comparisons on F, select(mask, a, b), min, max, abs, sqrt, exp,
-// log, floor, fma-free arithmetic, V3<F>; branches are selects where both sides are cheap. They are never
-// included by public headers (a public header must mean the same in every file).
+// log, floor, fma-free arithmetic, V3<F>; branches are selects where both sides are cheap. They are
+// never included by public headers (a public header must mean the same in every file).
 #if defined(LOBELIA_BASE_CORE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_BASE_CORE_INL_H_
 #undef LOBELIA_BASE_CORE_INL_H_

@@ -20,7 +20,7 @@ namespace {
 // A difference of normals of 1 counts as much as this share of the scene's size.
 constexpr float kNormalShare = 0.25f;
 constexpr float kGroupsApart = 10;
-constexpr double kPowerShare = 0.25;  // of the weight of a light, the rest by importance
+constexpr double kPowerShare = 0.5;  // of the weight of a light, the rest by importance
 
 bool isRich(LightClass lightClass) {
   return lightClass == LightClass::diffuse || lightClass == LightClass::glossy;

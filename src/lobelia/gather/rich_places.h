@@ -6,7 +6,7 @@
 // around them: the particles are a given set of lights, and a light is joined to one place whole,
 // which keeps the sum of their powers. Importance is what a sample of the picture's receivers gets
 // of each light, with its shadow rays, by a geometry term that is limited as if every place were
-// spread over its share of the scene; a quarter of the weight goes by power, for what the sample
+// spread over its share of the scene; half of the weight goes by power, for what the sample
 // does not see. Places are drawn without replacement, evenly along a curve through space.
 #pragma once
 

@@ -183,7 +183,7 @@ void RichRadiance::setTexels(size_t i, std::span<const RichLobe> lobes) {
   for (const RichLobe& own : lobes) {
     const Rgb energy = energyAbove(lights_[i].n, own);
     const Vec3f axis = frame.toLocal(own.axis);
-    const float sharpness = own.sharpness * sharpest / (own.sharpness + sharpest);
+    const float sharpness = std::min(own.sharpness, sharpest);
     double sum = 0;
     for (size_t t = 0; t < count; ++t) {
       lobe[t] = lobes::gaussian(axis, sharpness, directions[t]);
