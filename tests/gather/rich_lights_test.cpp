@@ -256,6 +256,14 @@ TEST_F(RichGather, DepthsLimitTheSharesOfPlaces) {
   gather_.maxDepth = -1;
   EXPECT_NEAR(limited / whole, exact / sum(all()), 0.08);
   EXPECT_LT(limited, 0.9 * whole);
+
+  RichRadiance radiance(RichForm::vmf, 2, 4, 1);
+  radiance.limitDepth(4, 3, {0.25f, 0.5f, 1, 0, 0, 1});
+  EXPECT_EQ(radiance.share(0, 1), 1);
+  EXPECT_EQ(radiance.share(0, 2), 0.5f);
+  EXPECT_EQ(radiance.share(0, 3), 0.25f);
+  EXPECT_EQ(radiance.share(0, 4), 0);
+  EXPECT_EQ(radiance.share(1, 2), 0);
 }
 
 TEST_F(RichGather, ThreadsDoNotMatterAndSeedsDo) {
@@ -308,7 +316,6 @@ TEST_F(RichGather, GroupsAreNotJoined) {
 
 // Near to its place, light that is spread is no spike.
 TEST_F(RichGather, SpreadLimitsTheGeometryTerm) {
-  RichRadiance radiance(RichForm::vmf, 1, 4, 1);
   lights_ = {};
   for (const float x : {-0.1f, 0.1f})
     lights_.diffuse.push_back({{x, 0, 0}, Rgb(1.f), encodeOctahedral({0, 0, 1}), 1});

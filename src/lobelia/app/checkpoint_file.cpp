@@ -24,7 +24,8 @@ constexpr const char* kCounters[] = {
     "light_particles",    "lights_dropped",    "paths_cut",
     "node_pairs_visited", "node_pairs_shaded", "specular_connections",
     "cut_lights",         "receiver_clusters", "clustered_receivers",
-    "clustered_lights",   "dominant_lights",   "dominant_comparisons"};
+    "clustered_lights",   "dominant_lights",   "dominant_comparisons",
+    "rich_lights",        "rich_bytes"};
 
 constexpr int64_t kSaveTimes = 10;  // between two saves passes so often the time of one,
 constexpr int64_t kLongestWait = 60'000'000'000;  // nanoseconds; but no longer than this
