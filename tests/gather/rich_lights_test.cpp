@@ -327,6 +327,22 @@ TEST_F(RichGather, SpreadLimitsTheGeometryTerm) {
   const RichLights rich(tracer_, {}, lights_, settings_, context_);
   ASSERT_EQ(rich.radiance().size(), 1u);
   EXPECT_NEAR(rich.radiance().light(0).leastSquared, 0.5f * 0.04f, 1e-6f);
+
+  receivers_ = randomReceivers(1, {LobeType::lambert}, 1, 1);
+  ReceiverPoint& above = receivers_.points[0];
+  above.p = rich.lights().diffuse[0].p + Vec3f{0, 0, 0.01f};
+  above.frame = frameFromNormal({0, 0, -1});
+  above.ng = above.wo = {0, 0, -1};
+  above.depth = 1;
+  scene_ = trianglesAboveFloor();
+  const Tracer tracer(scene_, context_);
+  settings_.spread = 0;
+  const RichLights point(tracer, {}, lights_, settings_, context_);
+  settings_.spread = 1;
+  const RichLights spread(tracer, {}, lights_, settings_, context_);
+  const double spike = sum(lightOf(point, receivers_, context_));
+  EXPECT_GT(spike, 0);
+  EXPECT_NEAR(sum(lightOf(spread, receivers_, context_)), spike * 1e-4 / 0.02, 1e-4 * spike);
 }
 
 TEST_F(RichGather, StatisticsSayWhatPlacesTake) {
