@@ -45,7 +45,7 @@ const std::vector<std::pair<std::string, SglcQuality>>& qualities() {
       {"lightcuts", {"--threshold", lightcuts, {0.08, 0.04, lightcuts, 0.01}, setThreshold}},
       {"mdlc", {"--threshold", mdlc, {0.08, 0.04, mdlc, 0.01}, setThreshold}},
       {"illumcut", {"--threshold", illumcut, {0.08, 0.04, 0.02, illumcut}, setThreshold}},
-      {"richvpl", {"--richvpl-lights", rich, {rich / 4, rich, 4 * rich}, setRichLights}},
+      {"richvpl", {"--richvpl-lights", rich, {rich / 16, rich / 4, rich, 4 * rich}, setRichLights}},
       {"stochastic", {"--cut-size", stochastic, {64, stochastic, 1024}, setCutSize}},
   };
   return table;
