@@ -170,12 +170,13 @@ class Chooser {
     parallelFor(keys.size(), 4096, [&](size_t i) {
       const Vec3f n = sites_[i].n, a{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
       const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-      const uint64_t side = static_cast<uint64_t>(2 * axis + (n[axis] < 0 ? 1 : 0));
+      const uint64_t side = 2 * static_cast<uint64_t>(axis) + (n[axis] < 0 ? 1 : 0);
       keys[i] = {uint64_t{groups_[i]} * 6 + side, morton((sites_[i].p - bounds_.lo) * scale),
                  static_cast<uint32_t>(i)};
     });
     std::sort(keys.begin(), keys.end());
     std::vector<uint32_t> order;
+    order.reserve(keys.size());
     for (const Key& key : keys) order.push_back(key.light);
     return order;
   }

@@ -39,8 +39,9 @@ void forTexelPoints(int texels, int pointsAcross, const F& f) {
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < texels; ++c, ++texel) {
         for (int k = 0; k < pointsAcross * pointsAcross; ++k) {
-          const float x = (static_cast<float>(k % pointsAcross) + 0.5f) / points;
-          const float y = (static_cast<float>(k / pointsAcross) + 0.5f) / points;
+          const int across = k % pointsAcross, down = k / pointsAcross;
+          const float x = (static_cast<float>(across) + 0.5f) / points;
+          const float y = (static_cast<float>(down) + 0.5f) / points;
           const float u = (static_cast<float>(c) + x) * step - 1;
           const float v = (static_cast<float>(r) + y) * step - (face == 0 ? 1.f : 0.f);
           const float sign = face == 1 || face == 3 ? 1.f : -1.f;
