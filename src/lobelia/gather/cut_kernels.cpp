@@ -1,7 +1,6 @@
 #include "lobelia/gather/cut_kernels.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "hwy/cache_control.h"
 #include "lobelia/base/random.h"
@@ -28,8 +27,7 @@ class Importance {
   Importance(const g::CutReceivers& receivers, int representatives,
              std::span<const LightTree> trees, float floor)
       : receivers_(g::representatives(receivers, representatives)),
-        each_(static_cast<size_t>(representatives)),
-        shift_(std::countr_zero(each_)),
+        most_(g::kStrip / static_cast<size_t>(representatives)),
         floor_(floor) {
     // Over the roots', so that no square underflows.
     float sum = 0;
@@ -45,8 +43,7 @@ class Importance {
   // On the scale of another one.
   Importance(const g::CutReceivers& receivers, int representatives, float floor, float scale)
       : receivers_(g::representatives(receivers, representatives)),
-        each_(static_cast<size_t>(representatives)),
-        shift_(std::countr_zero(each_)),
+        most_(g::kStrip / static_cast<size_t>(representatives)),
         floor_(floor),
         scale_(scale) {}
   float scale() const { return scale_; }
@@ -55,44 +52,44 @@ class Importance {
   // node's lights contribute, roughly.
   void evaluate(std::span<const LightNode* const> nodes, float* values,
                 float* priorities = nullptr) {
-    const size_t most = g::kStrip / each_;
-    for (size_t begin = 0; begin < nodes.size(); begin += most) {
-      const size_t count = std::min(most, nodes.size() - begin);
-      evaluateRun(nodes.subspan(begin, count), values + begin,
-                  priorities == nullptr ? nullptr : priorities + begin);
+    for (size_t begin = 0; begin < nodes.size(); begin += most_) {
+      const auto run = nodes.subspan(begin, std::min(most_, nodes.size() - begin));
+      if (priorities == nullptr)
+        evaluateRun<false>(run, values + begin, nullptr);
+      else
+        evaluateRun<true>(run, values + begin, priorities + begin);
     }
     evaluations_ += nodes.size();
   }
   size_t evaluations() const { return evaluations_; }
 
  private:
-  // A lane for every node and representative.
-  void evaluateRun(std::span<const LightNode* const> nodes, float* values, float* priorities) {
-    const LightNode* rows[g::kStrip];
-    for (size_t lane = 0; lane < g::kStrip; ++lane)
-      rows[lane] = nodes[std::min(lane >> shift_, nodes.size() - 1)];
-    table_.fill(rows);
-    alignas(64) float value[g::kStrip], variance[g::kStrip];
+  // A lane for every representative and node.
+  template <bool kPriorities>
+  HWY_INLINE void evaluateRun(std::span<const LightNode* const> nodes, float* values,
+                              float* priorities) {
+    table_.fill(nodes, most_);
+    alignas(64) float squares[g::kStrip], weighted[g::kStrip];
     for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
-      Vf relativeVariance;
-      nodeImportance(table_.at(lane), receivers_, lane, floor_, scale_, &relativeVariance)
-          .store(value + lane);
-      relativeVariance.store(variance + lane);
+      Vf variance;
+      const Vf value = nodeImportance(table_.at(lane), receivers_, lane, floor_, scale_,
+                                      kPriorities ? &variance : nullptr);
+      const Vf square = value * value;
+      square.store(squares + lane);
+      if (kPriorities) (square * variance).store(weighted + lane);
     }
-    for (size_t i = 0; i < nodes.size(); ++i) {
-      float squares = 0, weighted = 0;
-      for (size_t lane = i * each_; lane < (i + 1) * each_; ++lane) {
-        const float square = value[lane] * value[lane];
-        squares += square, weighted += square * variance[lane];
-      }
-      values[i] = std::sqrt(squares);
-      if (priorities != nullptr) priorities[i] = std::sqrt(weighted);
-    }
+    sumRepresentatives(squares, nodes.size(), values);
+    if (kPriorities) sumRepresentatives(weighted, nodes.size(), priorities);
+  }
+  // Roots of the sums.
+  HWY_INLINE void sumRepresentatives(float* lanes, size_t count, float* roots) const {
+    for (size_t half = g::kStrip / 2; half >= most_; half /= 2)
+      for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    for (size_t i = 0; i < count; ++i) roots[i] = std::sqrt(lanes[i]);
   }
 
   const g::CutReceivers receivers_;
-  const size_t each_;
-  const int shift_;  // by which a lane is divided by each_
+  const size_t most_;  // nodes at once
   const float floor_;
   float scale_ = 1;
   NodeTable table_;

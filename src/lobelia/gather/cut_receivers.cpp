@@ -108,9 +108,9 @@ CutReceivers representatives(const CutReceivers& receivers, int count) {
   CutReceivers out;
   out.gaussianCount = receivers.gaussianCount;
   const int size = kStrip / count;
-  for (int lane = 0; lane < kStrip; ++lane) {
-    const int i = lane % count;
-    Run(receivers, i * size, (i + 1) * size).represent(lane, &out);
+  for (int begin = 0; begin < kStrip; begin += size) {
+    Run(receivers, begin, begin + size).represent(begin, &out);
+    for (int lane = begin + 1; lane < begin + size; ++lane) setLane(out, begin, lane, &out);
   }
   return out;
 }
@@ -121,7 +121,7 @@ CutReceivers peaks(const CutReceivers& receivers, int count) {
   const auto raise = [](float* value, float to) { *value = std::max(*value, to); };
   for (int lane = 0; lane < kStrip; ++lane) {
     if (!(receivers.weight[lane] > 0)) continue;
-    for (int to = lane / size; to < kStrip; to += count) {
+    for (int to = lane / size * size; to < (lane / size + 1) * size; ++to) {
       raise(&out.diffuse[to], receivers.diffuse[lane]);
       for (size_t i = 0; i < receivers.gaussianCount; ++i)
         raise(&out.gaussians[i].amplitude[to], receivers.gaussians[i].amplitude[lane]);

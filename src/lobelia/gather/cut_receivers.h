@@ -24,8 +24,8 @@ struct CutReceivers {
 
 // tile: a single strip of these receivers, with Gaussians (addSampling()).
 CutReceivers cutReceivers(const Tile& tile, const Receivers& receivers);
-// Lanes i, i + count and so on stand for the i-th run of kStrip / count of these receivers: where
-// they can see nothing of a light, none of the run can. count: a power of two, at most kStrip.
+// Every lane of a run of kStrip / count stands for all of these receivers of the run: where it can
+// see nothing of a light, none of them can. count: a power of two, at most kStrip.
 CutReceivers representatives(const CutReceivers& receivers, int count);
 // The same, but as reflecting as the most reflecting receiver of a run, at its lobes' peaks.
 CutReceivers peaks(const CutReceivers& receivers, int count);

@@ -37,16 +37,14 @@ class Reaching {
   // Those that it does reach so, as far as estimates tell.
   uint32_t reaches(const g::TargetStrip& strip) {
     if (!filled_) {
-      const trees::LightNode* rows[g::kStrip];
-      std::fill_n(rows, g::kStrip, &light_);
-      table_.fill(rows);
+      const trees::LightNode* light = &light_;
+      table_.fill({&light, 1}, 1);
       filled_ = true;
     }
     uint32_t bits = 0;
     for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
-      Vf relativeVariance;
-      const Vf value = nodeImportance(table_.at(lane), strip.receivers, lane, Vf(kFloor), Vf(1.f),
-                                      &relativeVariance);
+      const Vf value =
+          nodeImportance(table_.at(lane), strip.receivers, lane, Vf(kFloor), Vf(1.f), nullptr);
       bits |= maskBits(value >= Vf::load(strip.least + lane)) << lane;
     }
     return bits;

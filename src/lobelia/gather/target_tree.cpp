@@ -70,7 +70,8 @@ TargetTree::TargetTree(const std::vector<ClusterTarget>& all) {
   std::vector<Bound> bounds;
   for (uint32_t cluster = 0; cluster < all.size(); ++cluster) {
     const ClusterTarget& target = all[cluster];
-    for (int i = 0; i < target.count; ++i) {
+    if (target.count == 0) continue;
+    for (int i = 0; i < kStrip; i += kStrip / target.count) {
       if (!(target.receivers.weight[i] > 0)) continue;
       const int lane = static_cast<int>(bounds.size() % kStrip);
       if (lane == 0) targets.emplace_back();
