@@ -54,7 +54,8 @@ std::string estimateText(const RenderOptions& options) {
 void requireCutExport(const RenderOptions& options) {
   if (options.exportTrees.empty()) return;
   if (options.lights == "photon")
-    throw UsageError("--export-trees: --lights photon has no virtual lights; use vpl, glossy or vsl");
+    throw UsageError(
+        "--export-trees: --lights photon has no virtual lights; use vpl, glossy or vsl");
   if (options.frames > 0 || options.turntable)
     throw UsageError("--export-trees is for one picture: leave out --frames and --turntable");
   if (!options.checkpoint.empty() || !options.resume.empty())
