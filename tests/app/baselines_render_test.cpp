@@ -155,28 +155,28 @@ TEST_F(BaselinesRender, MultidimensionalLightcutsHaveASetOfLightsForManySamples)
 // Without a threshold all lights are in the cut, and the options that choose parts of a picture go
 // with every gather.
 TEST_F(BaselinesRender, GoWithOtherOptions) {
-  const std::string base = "--size 16x12 --spp 2 --num-lights 100 --clamp 1 --gather ";
+  const std::string base = "--size 8x6 --spp 2 --num-lights 100 --clamp 1 --gather ";
   const std::string lightcuts = "lightcuts --threshold 0 --cut-size 3000";
   const std::string stochastic = "stochastic --cut-size 3000", slices = "lightslice --columns 3000";
   const std::string rich = "richvpl --richvpl-lights 3000";  // a place for each light
   const std::string whole = "illumcut --threshold 0", mdlc = "mdlc --threshold 0 --cut-size 9000";
-  for (const auto& [strategy, part] : {std::pair{lightcuts, "--crop 4,2,12,10"},
-                                       std::pair{slices, "--pixels 60"},
+  for (const auto& [strategy, part] : {std::pair{lightcuts, "--crop 2,1,6,5"},
+                                       std::pair{slices, "--pixels 15"},
                                        std::pair{stochastic, "--passes 2"},
                                        std::pair{lightcuts, "--direct lights"},
                                        std::pair{stochastic, "--max-depth 3"},
                                        std::pair{slices, "--aov groups,types,cost"},
                                        std::pair{lightcuts, "--lights vpl"},
-                                       std::pair{whole, "--crop 4,2,12,10"},
-                                       std::pair{whole, "--direct lights --pixels 60"},
+                                       std::pair{whole, "--crop 2,1,6,5"},
+                                       std::pair{whole, "--direct lights --pixels 15"},
                                        std::pair{whole, "--max-depth 3"},
-                                       std::pair{mdlc, "--passes 1 --crop 4,2,12,10"},
-                                       std::pair{mdlc, "--passes 1 --pixels 60"},
+                                       std::pair{mdlc, "--passes 1 --crop 2,1,6,5"},
+                                       std::pair{mdlc, "--passes 1 --pixels 15"},
                                        std::pair{mdlc, "--passes 2 --direct lights"},
                                        std::pair{mdlc, "--passes 1 --max-depth 3"},
                                        std::pair{mdlc, "--passes 1 --aov groups,types,cost"},
-                                       std::pair{rich, "--crop 4,2,12,10"},
-                                       std::pair{rich, "--pixels 60 --passes 2"},
+                                       std::pair{rich, "--crop 2,1,6,5"},
+                                       std::pair{rich, "--pixels 15 --passes 2"},
                                        std::pair{rich, "--direct lights"},
                                        std::pair{rich, "--max-depth 3"},
                                        std::pair{rich, "--aov groups,types,cost"},

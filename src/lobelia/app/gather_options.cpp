@@ -77,6 +77,7 @@ void requireGather(const RenderOptions& options) {
               {"sglc", "lightcuts", "mdlc", "stochastic", "illumcut"},
               options.threshold >= 0},
         Owned{"--illumcut-rays", {"illumcut"}, !options.illumcutRays.empty()},
+        Owned{"--export-trees", {"sglc", "lightcuts"}, !options.exportTrees.empty()},
         Owned{"--bound", {"sglc"}, !options.bound.empty()},
         Owned{"--sglc-bounds", {"sglc"}, !options.boundForm.empty()},
         Owned{"--sglc-share", {"sglc"}, !options.shared.empty()},

@@ -182,6 +182,11 @@ LightGather::Light LightGather::gather(const Receivers& run,
   return light;
 }
 
+std::vector<gather::ExportedTree> LightGather::exportTrees(bool direct) const {
+  const Prepared& prepared = direct ? direct_ : indirect_;
+  return prepared ? prepared->exportTrees() : std::vector<gather::ExportedTree>();
+}
+
 size_t LightGather::runLength() const {
   return app::runLength(gatheredLights(parts_.size(), options_));
 }

@@ -28,6 +28,8 @@ class LightGather {
                Context& context) const;
 
   const LightParts& parts() const { return parts_; }
+  // The trees of the lights that are gathered by trees (GatherParts::recordCuts).
+  std::vector<gather::ExportedTree> exportTrees(bool direct) const;
   // How many receivers to gather at once.
   size_t runLength() const;
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "lobelia/app/cut_export.h"
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_layers.h"
@@ -40,6 +41,8 @@ ExitCode renderUntilCancelled(const RenderOptions& options, const std::string& c
   int64_t start = nanosecondsNow();
   const Scene scene = loadScene(options.scene, context);
   const std::vector<Frame> frames = planFrames(scene, options);
+  if (frames.size() > 1 && !options.exportTrees.empty())
+    throw UsageError("--export-trees is for one picture: name one camera");
   std::optional<Display> display;
   if (!options.display.empty()) display.emplace(options.display, "lobelia: " + scene.name, context);
   const Tracer tracer(scene, context);
@@ -75,6 +78,7 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
   requireOwnLight(options);
   requireFrames(options);
   requireReplay(options);
+  requireCutExport(options);
   requireUsedResults(options);
   if (!options.display.empty()) parseViewerAddress(options.display);
   const ThreadLimit threads(global.threads);

@@ -95,6 +95,7 @@ void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& cont
   if (options.frames > 0) film.metadata["lobelia:frame"] = std::to_string(frame.number);
   writeOutputs(film, options, run.curve, context);
   if (!options.stats.empty()) writeStatistics(options.stats, options, scene, film, report, context);
+  if (report.cuts) report.cuts->write(options, scene, film, run.commandLine, context);
   context.info(fmt::format("{:.2f} s rendering, {:.2f} s in all",
                            static_cast<double>(end - renderStart) * 1e-9,
                            context.statistics.seconds("total")));

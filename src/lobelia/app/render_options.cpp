@@ -310,6 +310,11 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("FILE");
   c.add_option("--load-lights", o.loadLights, "Use the virtual lights of a file")
       ->type_name("FILE");
+  c.add_option(
+       "--export-trees", o.exportTrees,
+       "--gather sglc, lightcuts: write light trees and the cuts of the first sample as NPY "
+       "files, with description.json")
+      ->type_name("FOLDER");
   c.add_option("--stats", o.stats, "Write statistics as JSON")->type_name("FILE");
   c.add_option("--aov", o.aovs, "Layers to add to the EXR, separated by commas")
       ->type_name("LIST")

@@ -67,7 +67,7 @@ struct RenderOptions {
   std::string checkpoint, resume;  // files; at most one of them is named
   double checkpointInterval = 20;  // seconds
   std::string replay;              // X,Y
-  std::string saveLights, loadLights, stats, aovs;
+  std::string saveLights, loadLights, stats, aovs, exportTrees;
   float exposure = 0;
   int frames = 0;     // of a camera path or turntable; 0: one picture
   std::string frame;  // K or A-B: only these of them

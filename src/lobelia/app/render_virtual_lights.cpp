@@ -54,6 +54,7 @@ class VirtualLightRender {
     variance_.emplace(film);
     backup_.emplace(film, plan_.bandRows);
     layers_.emplace(emitters.groups(), options, plan_.eye.sampleCount, film);
+    if (!options.exportTrees.empty()) report_.cuts.emplace();
   }
 
   VirtualLightReport run() {
@@ -115,8 +116,11 @@ class VirtualLightRender {
       if (stopped() || !renderBand()) return false;
       saveWhenDue();
     }
+    if (keepsCuts()) report_.cuts->addTrees(*lights_);
     return true;
   }
+
+  bool keepsCuts() const { return report_.cuts && at_.sample == 0; }
 
   bool renderBand() {
     const auto [y0, y1] = plan_.rows(at_.band, film_);
@@ -185,9 +189,19 @@ class VirtualLightRender {
 
   // Adds all of the run or nothing.
   bool gatherRun(const Receivers& run) {
-    const LightGather::Light light =
-        lights_->gather(run, layers_->wanted(), GatherSettings::kAllPixels, context_);
+    std::optional<GatherParts> wanted = layers_->wanted();
+    const bool raysWanted = wanted && wanted->countRays;
+    if (keepsCuts()) {
+      if (!wanted) wanted.emplace();
+      wanted->recordCuts = wanted->countRays = true;
+    }
+    LightGather::Light light = lights_->gather(run, wanted, GatherSettings::kAllPixels, context_);
     if (context_.cancelled()) return false;
+    if (keepsCuts()) {
+      report_.cuts->add(run, light);
+      for (std::optional<GatherParts>& parts : light.layers)
+        if (parts && !raysWanted) parts->rays.clear();
+    }
     for (size_t i = 0; i < std::size(light.layers); ++i)
       if (light.layers[i]) layers_->add(run, *light.layers[i], i < 2);
     for (size_t i = 0; i < run.points.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "lobelia/app/cut_export.h"
 #include "lobelia/app/light_reduction.h"
 #include "lobelia/base/checkpoints.h"
 #include "lobelia/film/film.h"
@@ -14,8 +15,9 @@ struct VirtualLightReport {  // for --stats
   LightCounts lights;        // the first set
   int sets = 1;              // independent sets that were averaged
   ReductionReport reduction;
-  uint64_t photons = 0;      // of the first set (--lights photon)
+  uint64_t photons = 0;  // of the first set (--lights photon)
   uint64_t diffuseReceivers = 0, glossyReceivers = 0, receiverPoints = 0;
+  std::optional<CutExport> cuts;  // of the first sample, where --export-trees asks for them
 };
 
 // Adds to film's layers "direct" and "indirect" (and AOVs). When cancelled or out of time, every

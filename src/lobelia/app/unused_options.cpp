@@ -74,8 +74,9 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
   report("--pixels-seed", options.pixels == 0, "all pixels are computed without --pixels");
   report("--checkpoint-interval", options.checkpoint.empty() && options.resume.empty(),
          "neither --checkpoint nor --resume names a file");
-  for (const char* name : {"--output", "--stats", "--aov", "--exposure", "--display",
-                           "--checkpoint", "--resume", "--save-lights", "--time-limit"})
+  for (const char* name :
+       {"--output", "--stats", "--aov", "--exposure", "--display", "--checkpoint", "--resume",
+        "--save-lights", "--export-trees", "--time-limit"})
     report(name, !options.replay.empty(), "--replay shows one pixel and writes nothing");
   if (options.replay.empty())
     report("--exposure", !writes(options, ".png"), "no .png is written, and .exr stays linear");

@@ -1,11 +1,16 @@
 // Tables of mixtures for isotropic lobes without Fresnel factor, over alpha and the angle of
 // incidence. Between the table's angles two mixtures are blended, each turned so that its mirror
 // direction is the lobe's; between its alphas a mixture is scaled about the mirror direction.
+//
+// An entry is fitted when it is first looked up: a scene of a few materials needs a small part of a
+// table, whose fits would take longer than a small picture.
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <vector>
 
-#include "lobelia/base/parallel.h"
 #include "lobelia/bsdf/gaussian_mixture.h"
 #include "lobelia/bsdf/lobe_sampling.h"
 #include "lobelia/bsdf/scalar_lobe.h"
@@ -107,11 +112,11 @@ Entry fitEntry(Lobe lobe, float alpha, float cosine) {
 
 class ShapeTable {
  public:
-  explicit ShapeTable(const Lobe& lobe) : entries_(kAlphas * kAngles) {
-    parallelFor(entries_.size(), 4, [&](size_t i) {
-      const int a = static_cast<int>(i) / kAngles, c = static_cast<int>(i) % kAngles;
-      entries_[i] = fitEntry(lobe, alphaAt(a), cosineAt(c));
-    });
+  explicit ShapeTable(const Lobe& lobe) : lobe_(lobe) {}
+  ShapeTable(const ShapeTable&) = delete;
+  ShapeTable& operator=(const ShapeTable&) = delete;
+  ~ShapeTable() {
+    for (std::atomic<const Entry*>& entry : entries_) delete entry.load();
   }
 
   int lookUp(float alpha, Vec3f wo, std::span<ShapePart> parts) const {
@@ -151,10 +156,21 @@ class ShapeTable {
     float mirror, alpha;
     Vec3f side;
   };
+  // Threads that want an entry at once all fit it, and the same: none waits for another, which may
+  // be at work for it.
+  const Entry& entry(int row, int column) const {
+    std::atomic<const Entry*>& place = entries_[static_cast<size_t>(row * kAngles + column)];
+    const Entry* known = place.load(std::memory_order_acquire);
+    if (known != nullptr) return *known;
+    auto own = std::make_unique<const Entry>(fitEntry(lobe_, alphaAt(row), cosineAt(column)));
+    if (place.compare_exchange_strong(known, own.get(), std::memory_order_acq_rel))
+      known = own.release();
+    return *known;
+  }
   void put(int row, int column, const Place& place, float weight, std::span<ShapePart> parts,
            int* count) const {
     const float scale = place.alpha / alphaAt(row);
-    for (const TablePart& p : entries_[static_cast<size_t>(row * kAngles + column)]) {
+    for (const TablePart& p : entry(row, column)) {
       if (!(p.share * weight > 1e-4f)) continue;
       const float angle = std::clamp(place.mirror + p.offset * scale, -1.56f, 1.56f);
       parts[static_cast<size_t>((*count)++)] = {
@@ -162,7 +178,8 @@ class ShapeTable {
           p.sharpness / (scale * scale), p.share * weight};
     }
   }
-  std::vector<Entry> entries_;
+  const Lobe lobe_;
+  mutable std::array<std::atomic<const Entry*>, kAlphas * kAngles> entries_{};
 };
 
 Lobe prototype(LobeType type, Distribution distribution, uint8_t variant) {
@@ -173,7 +190,7 @@ Lobe prototype(LobeType type, Distribution distribution, uint8_t variant) {
   return lobe;
 }
 
-// Built on first use, for the process. The phong distribution of micro-normals is Beckmann's for
+// Of the process. The phong distribution of micro-normals is Beckmann's for
 // this purpose, as are the two weights of Ward's model each other's.
 const ShapeTable* tableOf(const Lobe& lobe) {
   using enum LobeType;

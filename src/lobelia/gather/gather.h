@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "lobelia/gather/recorded_cut.h"
 #include "lobelia/lights/virtual_lights.h"
 #include "lobelia/path/receivers.h"
 
@@ -39,10 +40,12 @@ struct GatherParts {
   static constexpr size_t kTypes = 10;  // [2 * class + lobes], classes in the order of LightClass
   size_t groupCount = 0;                // of VirtualLights::groups; 0: not asked for
   bool byType = false, countRays = false;
+  bool recordCuts = false;  // of strategies that have some (--export-trees)
   // Set, not added to, by gatherAll().
   std::vector<Rgb> groups;     // [group * points + point]
   std::vector<Rgb> types;      // [type * points + point]
   std::vector<uint32_t> rays;  // shadow rays of a point
+  std::vector<RecordedCut> cuts;
   // Room for so many points.
   void reset(size_t points);
   // What a gather in an order of its own has found: its point i is order[i] of `points`.

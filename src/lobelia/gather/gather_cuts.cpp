@@ -8,6 +8,7 @@
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
 #include "lobelia/gather/chosen_gather.h"
+#include "lobelia/gather/cut_recorder.h"
 #include "lobelia/gather/receiver_clusters.h"
 
 namespace lobelia::gather {
@@ -49,14 +50,17 @@ class LightCuts::ClusterGather {
     return target;
   }
 
+  // recorder: null where the cut is not kept.
   void run(const ReceiverClusters::Cluster& cluster, std::span<const DominantLights::Leaf> dominant,
-           std::span<Rgb> radiance, GatherTally* tally) {
+           std::span<Rgb> radiance, GatherTally* tally, const CutRecorder* recorder = nullptr,
+           RecordedCut* record = nullptr) {
     const int64_t start = nanosecondsNow();
     const Tile tile = tileOf(cluster);
     const uint64_t seed = keyOf(receivers_.points[cluster.begin], cuts_.settings_.seed);
     tally->evaluations +=
         drawCutLights(cutReceivers(tile, receivers_), cluster.representatives, cuts_.trees_,
                       dominant, cuts_.settings_.cut, seed, &scratch_, &drawn_);
+    if (recorder != nullptr) recorder->record(scratch_, drawn_, record);
     choose(cluster.compact && cuts_.settings_.shared);
     tally->lights += chosen_.size();
     tally->clusteredLights += cuts_.numbers_.count();
@@ -147,14 +151,34 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
     context.statistics.addCount("dominant_lights", dominant.count());
     context.statistics.addCount("dominant_comparisons", dominant.comparisons());
   }
-  gatherInParallel(clusters.clusters.size(), kGrain, context,
-                   [&](size_t begin, size_t end, GatherTally* tally) {
-                     ClusterGather gather(*this, clusters, ordered ? &*ordered : nullptr);
-                     for (size_t i = begin; i < end && !context.cancelled(); ++i)
-                       if (gathered(i))
-                         gather.run(clusters.clusters[i], dominant.of(i), radiance, tally);
-                   });
-  if (parts != nullptr) parts->setOrdered(*ordered, clusters.order, points);
+  std::optional<CutRecorder> recorder;
+  std::vector<RecordedCut> records;
+  if (parts != nullptr && parts->recordCuts) {
+    recorder.emplace(trees_, numbers_.count());
+    records = recordedReceivers(clusters);
+  }
+  gatherInParallel(
+      clusters.clusters.size(), kGrain, context, [&](size_t begin, size_t end, GatherTally* tally) {
+        ClusterGather gather(*this, clusters, ordered ? &*ordered : nullptr);
+        for (size_t i = begin; i < end && !context.cancelled(); ++i)
+          if (gathered(i))
+            gather.run(clusters.clusters[i], dominant.of(i), radiance, tally,
+                       recorder ? &*recorder : nullptr, recorder ? &records[i] : nullptr);
+      });
+  if (parts != nullptr) {
+    parts->setOrdered(*ordered, clusters.order, points);
+    parts->cuts = std::move(records);
+  }
+}
+
+std::vector<ExportedTree> LightCuts::exportTrees() const {
+  constexpr const char* kMeanings[kLightTrees] = {"lights that are mostly diffuse",
+                                                  "lights that are mostly glossy",
+                                                  "directional lights, as if far away"};
+  std::vector<ExportedTree> trees;
+  for (size_t t = 0; t < kLightTrees; ++t)
+    trees.push_back(exportTree(trees_[t], numbers_, lights_, kMeanings[t]));
+  return trees;
 }
 
 }  // namespace lobelia::gather

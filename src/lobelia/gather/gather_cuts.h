@@ -43,6 +43,7 @@ class LightCuts : public PreparedGather {
   // choosing lights to "traverse". onlyPixel: GatherSettings::onlyPixel, for clusters.
   void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
               Context& context, GatherParts* parts = nullptr) const override;
+  std::vector<ExportedTree> exportTrees() const override;
 
  private:
   class ClusterGather;

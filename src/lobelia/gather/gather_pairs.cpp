@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <numeric>
+#include <stdexcept>
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/gather/pixel_range.h"
@@ -76,6 +78,8 @@ class LightPairs::Run {
       });
       if (context_.cancelled()) return false;
       for (const Job& job : jobs) add(job);
+      if (parts_ != nullptr && parts_->recordCuts)
+        for (Job& job : jobs) record(&job);
       for (Pixel& pixel : pixels_) pixel.estimate = 0;
     }
     return true;
@@ -117,6 +121,7 @@ class LightPairs::Run {
     std::vector<uint32_t> rays;
     Tally tally;
     std::optional<uint32_t> firstBad;
+    std::vector<TreePair> pairs;  // where cuts are recorded
 
     const trees::BoundNode& tile() const { return receivers->tree.nodes()[node]; }
     void take(const PairShading& shading) {
@@ -138,7 +143,7 @@ class LightPairs::Run {
       for (const LightForest::Tree& tree : lights.trees) {
         if (!pairing.has(tree.lightClass)) continue;
         for (const uint32_t node : receivers.tiles) {
-          jobs.push_back({&receivers, &tree, node, {}, {}, {}, {}});
+          jobs.push_back({&receivers, &tree, node, {}, {}, {}, {}, {}});
           jobs.back().radiance.resize(jobs.back().tile().count);
           jobs.back().rays.assign(jobs.back().tile().count, 0);
         }
@@ -197,6 +202,8 @@ class LightPairs::Run {
         job->tally.nodeReceivers += receivers;
         job->tally.covered += receivers * job->lights->tree.nodes()[pair.lights].count;
       }
+      if (parts_ != nullptr && parts_->recordCuts)
+        job->pairs.insert(job->pairs.end(), pairs->begin(), pairs->end());
       shading.add(*job->lights, pairs, thresholds);
       return true;
     });
@@ -252,6 +259,29 @@ class LightPairs::Run {
     tally_.visibilityNs += t.visibilityNs, tally_.shadeNs += t.shadeNs;
   }
 
+  // A cut for each node of receivers that pairs have.
+  void record(Job* job) {
+    std::sort(job->pairs.begin(), job->pairs.end(), [](const TreePair& a, const TreePair& b) {
+      return a.receivers != b.receivers ? a.receivers < b.receivers : a.lights < b.lights;
+    });
+    const uint32_t number = pairs_.numberOf(job->lights);
+    for (size_t i = 0; i < job->pairs.size(); ++i) {
+      const TreePair& pair = job->pairs[i];
+      if (i == 0 || pair.receivers != job->pairs[i - 1].receivers) {
+        RecordedCut& cut = parts_->cuts.emplace_back();
+        cut.lobes =
+            job->receivers->glossy ? RecordedCut::Lobes::glossy : RecordedCut::Lobes::diffuse;
+        const trees::BoundNode& node = job->receivers->tree.nodes()[pair.receivers];
+        const auto points = std::span(job->receivers->points).subspan(node.first, node.count);
+        cut.receivers.assign(points.begin(), points.end());
+      }
+      const trees::BoundNode& node = job->lights->tree.nodes()[pair.lights];
+      const int32_t light = node.leaf() ? static_cast<int32_t>(node.first) : -1;
+      parts_->cuts.back().nodes.push_back({number, pair.lights, light, 1, 0, -1, 0});
+    }
+    job->pairs.clear();
+  }
+
   const LightPairs& pairs_;
   const PairGatherSettings& settings_;
   const Receivers& receivers_;
@@ -280,8 +310,31 @@ const LightForest& LightPairs::forestFor(int receiverDepth) const {
   const std::lock_guard lock(mutex_);
   const auto found = forests_.find(ends);
   if (found != forests_.end()) return found->second;
-  return forests_[ends] = plantLights(lights_, settings_.gather, receiverDepth, tracer_.scene(),
-                                      tracer_.bounds(), spheres_);
+  LightForest& forest = forests_[ends];
+  forest = plantLights(lights_, settings_.gather, receiverDepth, tracer_.scene(), tracer_.bounds(),
+                       spheres_);
+  planted_.push_back(&forest);
+  return forest;
+}
+
+uint32_t LightPairs::numberOf(const LightForest::Tree* tree) const {
+  const std::lock_guard lock(mutex_);
+  size_t before = 0;
+  for (const LightForest* forest : planted_) {
+    const LightForest::Tree* first = forest->trees.data();
+    if (std::less_equal<>()(first, tree) && std::less<>()(tree, first + forest->trees.size()))
+      return static_cast<uint32_t>(before + static_cast<size_t>(tree - first));
+    before += forest->trees.size();
+  }
+  throw std::logic_error("LightPairs::numberOf: a tree of another strategy");
+}
+
+std::vector<ExportedTree> LightPairs::exportTrees() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<ExportedTree> trees;
+  for (const LightForest* forest : planted_)
+    for (const LightForest::Tree& tree : forest->trees) trees.push_back(exportTree(tree, lights_));
+  return trees;
 }
 
 void LightPairs::gather(const Receivers& receivers, uint32_t, std::span<Rgb> radiance,

@@ -49,10 +49,13 @@ class LightPairs : public PreparedGather {
   // gathered: errors are shared out over them.
   void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
               Context& context, GatherParts* parts = nullptr) const override;
+  std::vector<ExportedTree> exportTrees() const override;
 
  private:
   class Run;
   const LightForest& forestFor(int receiverDepth) const;
+  // Of a tree, among those of all forests.
+  uint32_t numberOf(const LightForest::Tree* tree) const;
 
   const Tracer& tracer_;
   const VirtualLights& lights_;
@@ -61,6 +64,7 @@ class LightPairs : public PreparedGather {
   // By the end of each class' range: receivers of different depths may gather different lights.
   mutable std::mutex mutex_;
   mutable std::map<std::vector<size_t>, LightForest> forests_;
+  mutable std::vector<const LightForest*> planted_;  // the same, the first planted first
 };
 
 }  // namespace lobelia::gather

@@ -56,6 +56,16 @@ class Lightcuts::PointGather {
     std::sort(lights.begin(), lights.end());
     return lights;
   }
+  // The same, with their nodes.
+  void record(size_t point, RecordedCut* out) const {
+    out->receivers = {static_cast<uint32_t>(point)};
+    for (const CutNode& node : refinement_.cut()) {
+      const trees::BoundTree& tree = cuts_.forest_.trees[node.tree].tree;
+      const uint32_t place = tree.nodes()[leafOf(node)].first;
+      out->nodes.push_back({node.tree, node.node, static_cast<int32_t>(place), scaleOf(node),
+                            luminance(node.value), node.upper, 0});
+    }
+  }
   void countPairs() const {
     tally_.pairs += values_.pairs;
     tally_.nonfinite += values_.nonfinite;
@@ -131,6 +141,12 @@ Lightcuts::Lightcuts(const Tracer& tracer, const VirtualLights& lights,
   representatives_ = Representatives(forest_, settings_.seed);
 }
 
+std::vector<ExportedTree> Lightcuts::exportTrees() const {
+  std::vector<ExportedTree> trees;
+  for (const LightForest::Tree& tree : forest_.trees) trees.push_back(exportTree(tree, lights_));
+  return trees;
+}
+
 void Lightcuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
                        Context& context, GatherParts* parts) const {
   const size_t points = receivers.points.size();
@@ -143,6 +159,7 @@ void Lightcuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
     order.resize(points);
     std::iota(order.begin(), order.end(), 0u);
     again.resize(points);
+    parts->cuts.assign(parts->recordCuts ? points : 0, {});
   }
   constexpr size_t kGrain = 32;
   gatherInParallel(points, kGrain, context, [&](size_t begin, size_t end, GatherTally* tally) {
@@ -154,6 +171,7 @@ void Lightcuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
       const uint64_t before = tally->rays;
       radiance[i] += receivers.points[i].weight * gather.run(i);
       if (parts == nullptr) continue;
+      if (parts->recordCuts) gather.record(i, &parts->cuts[i]);
       if (parts->byType || parts->groupCount > 0)
         partGather.add(gather.tile(), gather.chosen(), again, &partsTally);
       tally->rays += partsTally.rays;

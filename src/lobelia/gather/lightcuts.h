@@ -35,6 +35,7 @@ class Lightcuts : public PreparedGather {
   // the cuts). Groups and types cost the rays of the cut once more, which count, too.
   void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
               Context& context, GatherParts* parts) const override;
+  std::vector<ExportedTree> exportTrees() const override;
 
  private:
   class PointGather;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lobelia/gather/gather.h"
+#include "lobelia/gather/tree_export.h"
 
 namespace lobelia::gather {
 
@@ -17,6 +18,9 @@ class PreparedGather {
   // GatherSettings::onlyPixel. parts: see there; null: none.
   virtual void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
                       Context& context, GatherParts* parts) const = 0;
+  // The light trees that the recorded cuts of all calls of gather() are of; none where it has none
+  // to show.
+  virtual std::vector<ExportedTree> exportTrees() const { return {}; }
 };
 
 }  // namespace lobelia::gather
