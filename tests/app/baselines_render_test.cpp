@@ -1,5 +1,5 @@
-// `render --gather lightslice`, `lightcuts`, `mdlc`, `stochastic`, `illumcut` and `richvpl` as a
-// user types them.
+// `render --gather lightslice`, `lightcuts`, `mdlc`, `stochastic` and `illumcut` and `--lights
+// richvpl` as a user types them.
 #include "app/render_test.h"
 #include "lobelia/film/metrics.h"
 
@@ -9,8 +9,7 @@ namespace {
 using BaselinesRender = test::RenderTest;
 
 const std::string kBase =
-    "--lights glossy --clamp 0.3 --size 32x24 --spp 1 --num-lights 1500 --component indirect "
-    "--seed 2 ";
+    "--clamp 0.3 --size 32x24 --spp 1 --num-lights 1500 --component indirect --seed 2 ";
 
 TEST_F(BaselinesRender, LightSlice) {
   const Film all = render(kBase, "all");
@@ -97,16 +96,18 @@ TEST_F(BaselinesRender, RichVpls) {
     for (const int lights : {60, 300, 1400}) {
       const std::string name = std::to_string(lights);
       const Film film = render(
-          kBase + "--gather richvpl --richvpl-lights " + name + " --richvpl-radiance " + form,
+          kBase + "--lights richvpl --richvpl-lights " + name + " --richvpl-radiance " + form,
           name);
       const double error = compare(film, all).relmse;
       EXPECT_LT(error, 0.6 * before) << form << " " << lights;
       EXPECT_NEAR(compare(film, all).meanRatio, 1, 0.12) << form << " " << lights;
       before = error;
       const nlohmann::json stats = statistics(name);
-      EXPECT_EQ(stats["gather"]["rich_lights"], std::min(lights, 1400)) << form;
-      EXPECT_EQ(stats["gather"]["radiance"], form.substr(0, form.find(' ')));
-      EXPECT_GT(stats["gather"]["bytes_per_rich_light"], form == "vmf" ? 200 : 18000);
+      EXPECT_EQ(stats["gather"]["strategy"], "all");
+      EXPECT_EQ(stats["lights"]["model"], "richvpl");
+      EXPECT_EQ(stats["lights"]["rich_lights"], lights) << form;
+      EXPECT_EQ(stats["lights"]["radiance"], form.substr(0, form.find(' ')));
+      EXPECT_GT(stats["lights"]["bytes_per_rich_light"], form == "vmf" ? 200 : 18000);
       EXPECT_GT(stats["seconds"]["rows"], 0);
       EXPECT_GT(stats["counts"]["shadow_rays"], 0);
     }
@@ -158,7 +159,7 @@ TEST_F(BaselinesRender, GoWithOtherOptions) {
   const std::string base = "--size 8x6 --spp 2 --num-lights 100 --clamp 1 --gather ";
   const std::string lightcuts = "lightcuts --threshold 0 --cut-size 3000";
   const std::string stochastic = "stochastic --cut-size 3000", slices = "lightslice --columns 3000";
-  const std::string rich = "richvpl --richvpl-lights 3000";  // a place for each light
+  const std::string rich = "all --lights richvpl --richvpl-lights 3000";  // a place for each light
   const std::string whole = "illumcut --threshold 0", mdlc = "mdlc --threshold 0 --cut-size 9000";
   for (const auto& [strategy, part] : {std::pair{lightcuts, "--crop 2,1,6,5"},
                                        std::pair{slices, "--pixels 15"},
@@ -179,8 +180,7 @@ TEST_F(BaselinesRender, GoWithOtherOptions) {
                                        std::pair{rich, "--pixels 15 --passes 2"},
                                        std::pair{rich, "--direct lights"},
                                        std::pair{rich, "--max-depth 3"},
-                                       std::pair{rich, "--aov groups,types,cost"},
-                                       std::pair{rich, "--lights vpl"}}) {
+                                       std::pair{rich, "--aov groups,types,cost"}}) {
     const Film all = render(base + "all " + part, "all"),
                some = render(base + strategy + " " + part, "some");
     EXPECT_EQ(some.alpha, all.alpha) << part;
@@ -204,15 +204,17 @@ TEST_F(BaselinesRender, WrongUseSaysWhatWouldBeRight) {
   expectError("--gather lightcut", "lightcuts");
   expectError("--gather lightslice --num-lights 3000 --memory 1K", "--slices");
   expectError("--lights path --gather lightcuts", "--lights path");
-  expectError("--gather all --richvpl-lights 10", "--gather richvpl");
-  expectError("--gather richvpl --richvpl-radiance cubes", "cube");
-  expectError("--gather richvpl --richvpl-texels 8", "--richvpl-radiance cube");
-  expectError("--gather richvpl --richvpl-radiance cube --richvpl-lobes 8", "--richvpl-texels");
-  expectError("--gather richvpl --richvpl-radiance cube --richvpl-texels 9", "10 is needed");
-  expectError("--gather richvpl --richvpl-lobes 0", "--richvpl-lobes");
-  expectError("--gather richvpl --columns 10", "mrcs, lightslice");
-  expectError("--lights vsl --gather richvpl", "does not combine");
-  expectError("--gather richvpl --num-lights 3000 --memory 1K", "--richvpl-lights");
+  expectError("--lights richvpl --richvpl-radiance cubes", "cube");
+  expectError("--lights richvpl --richvpl-texels 8", "--richvpl-radiance cube");
+  expectError("--lights richvpl --richvpl-radiance cube --richvpl-lobes 8", "--richvpl-texels");
+  expectError("--lights richvpl --richvpl-radiance cube --richvpl-texels 9", "10 is needed");
+  expectError("--lights richvpl --richvpl-lobes 0", "--richvpl-lobes");
+  expectError("--lights richvpl --columns 10", "mrcs, lightslice");
+  expectError("--lights richvpl --gather sglc",
+              "--lights richvpl does not combine with --gather sglc; it does with all");
+  expectError("--lights richvpl --compensate", "vpl and glossy");
+  expectError("--gather richvpl", "'richvpl' is not known");
+  expectError("--lights richvpl --num-lights 3000 --memory 1K", "--richvpl-lights");
 }
 
 }  // namespace

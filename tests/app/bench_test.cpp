@@ -233,7 +233,8 @@ TEST(BenchSglc, TableLayersBoundsAndFloors) {
     EXPECT_GT(number(row, "visited_per_pixel"), 0) << row;
     EXPECT_TRUE(row["paper_seconds"].is_null()) << "a scene that the paper does not have: " << row;
   }
-  rowsOf(table, "method", "mrcs");
+  for (const char* method : {"mrcs", "richvpl, cube", "richvpl, vmf"})
+    EXPECT_EQ(rowsOf(table, "method", method).size(), 1u) << method;
   const double all = number(rowsOf(table, "method", "every light").at(0), "rays_per_pixel");
   const json scene = result["table2_scenes"].at(0);
   EXPECT_GT(number(scene, "glossy_lights"), 0);

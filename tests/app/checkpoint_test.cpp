@@ -142,10 +142,10 @@ INSTANTIATE_TEST_SUITE_P(
                            "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather illumcut "
                            "--aov direct,indirect,variance,cost,types"},
                     Method{"richvpl",
-                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather richvpl "
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --lights richvpl "
                            "--richvpl-lights 60 --aov direct,indirect,variance,cost,types"},
                     Method{"richvpl_cube",
-                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --gather richvpl "
+                           "--size 48x40 --spp 6 --passes 3 --num-lights 900 --lights richvpl "
                            "--richvpl-lights 60 --richvpl-radiance cube --richvpl-texels 8 "
                            "--aov direct,indirect,variance,cost"},
                     Method{"pairs",
@@ -195,7 +195,7 @@ TEST(CheckpointFile, SettingsOfAnotherChoiceAreNotNamed) {
             "--gather mrcs (now lightslice)");
   EXPECT_EQ(reasons("--gather sglc --cut-size 9", "--gather sglc --sglc-mode paper"),
             "--sglc-mode shared (now paper)");
-  EXPECT_EQ(reasons("--gather richvpl --richvpl-lobes 4", "--gather richvpl --richvpl-lights 9"),
+  EXPECT_EQ(reasons("--lights richvpl --richvpl-lobes 4", "--lights richvpl --richvpl-lights 9"),
             "--richvpl-lights 1000 (now 9), --richvpl-lobes 4 (now 8)");
   EXPECT_EQ(reasons("--gather stochastic", "--lights path"), "--lights glossy (now path)");
   EXPECT_EQ(reasons("--gather lightcuts", "--gather lightcuts --threshold 0.1 --seed 2"),

@@ -68,7 +68,7 @@ TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
        {"path", "light", "vpl", "glossy", "vsl", "vsl --gather mrcs", "vsl --gather sglc",
         "vpl --gather sglc --sglc-mode paper", "glossy --gather lightslice",
         "glossy --gather lightcuts", "glossy --gather mdlc", "glossy --gather stochastic",
-        "vsl --gather illumcut", "glossy --gather richvpl", "vpl --compensate", "photon"}) {
+        "vsl --gather illumcut", "richvpl", "vpl --compensate", "photon"}) {
     ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
                          " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
                   .exitCode,
@@ -138,7 +138,7 @@ TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
         "glossy --gather lightslice --columns 20 --slices 10",
         "vsl --gather lightcuts --cut-size 20", "vsl --gather mdlc --cut-size 20",
         "glossy --gather illumcut", "glossy --gather stochastic --cut-size 20",
-        "glossy --gather richvpl --richvpl-lights 20", "glossy --compensate", "photon"}) {
+        "richvpl --richvpl-lights 20", "glossy --compensate", "photon"}) {
     const auto render = [&](int threads, const char* seed) {
       const std::string file = folder / (std::to_string(threads) + seed + ".exr");
       const ProgramResult r =
@@ -171,6 +171,24 @@ TEST(CommandLine, SavedLightsGiveTheSamePictureAndRefuseAnotherScene) {
       small + "--lights vpl --load-lights " + (folder / "l") + " -o " + (folder / "c.exr"), 3,
       "glossy");
   EXPECT_FALSE(std::filesystem::exists(folder / "c.exr"));
+}
+
+// The file has the particles; merging them is part of gathering.
+TEST(CommandLine, SavedLightsOfRichVplsAreMergedAnew) {
+  const TemporaryFolder folder;
+  const std::string base = std::string(kSmall) + "--spp 1 --num-lights 100 ",
+                    rich = base + "--lights richvpl --richvpl-lights ", file = folder / "l";
+  ASSERT_EQ(runProgram(rich + "20 --save-lights " + file + " -o " + (folder / "a.exr")).exitCode,
+            0);
+  const auto loaded = [&](const std::string& places) {
+    const std::string picture = folder / "b.exr";
+    EXPECT_EQ(runProgram(rich + places + " --load-lights " + file + " -o " + picture).exitCode, 0);
+    return io::readFilm(picture).layers.at("").values;
+  };
+  const auto saved = io::readFilm(folder / "a.exr").layers.at("").values;
+  EXPECT_EQ(loaded("20"), saved);
+  EXPECT_NE(loaded("40"), saved);
+  expectFailure(base + "--load-lights " + file + " -o " + (folder / "c.exr"), 3, "richvpl");
 }
 
 TEST(CommandLine, PixelsAndCropAgreeWithTheWholePicture) {

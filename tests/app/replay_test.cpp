@@ -56,7 +56,7 @@ TEST(Replay, VirtualLightsGiveThePicturesBits) {
   expectSameValue("--gather stochastic --spp 3 --passes 2 --num-lights 700 --cut-size 40");
   expectSameValue("--gather mdlc --spp 6 --passes 2 --num-lights 700 --cut-size 60");
   expectSameValue("--gather illumcut --spp 2 --passes 2 --num-lights 700");
-  expectSameValue("--gather richvpl --spp 3 --passes 2 --num-lights 700 --richvpl-lights 60");
+  expectSameValue("--lights richvpl --spp 3 --passes 2 --num-lights 700 --richvpl-lights 60");
   expectSameValue("--gather sglc --sglc-mode paper --spp 2 --passes 2 --num-lights 700");
   expectSameValue("--lights vpl --compensate --spp 3 --passes 1 --num-lights 150");
   expectSameValue("--lights photon --spp 3 --passes 2 --num-lights 3000");

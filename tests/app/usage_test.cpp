@@ -173,6 +173,13 @@ TEST(Usage, OptionsWithoutEffectAreSaid) {
   EXPECT_EQ(warnings("--num-lights 16 --passes 3"), (Names{"--passes"}));
   EXPECT_EQ(warnings("--num-lights 16 --gather-rays 3 --radius 2"),
             (Names{"--radius", "--gather-rays"}));
+  EXPECT_EQ(
+      warnings("--num-lights 16 --richvpl-lights 9 --richvpl-radiance cube --richvpl-texels 7 "
+               "--richvpl-lobes 4"),
+      (Names{"--richvpl-lights", "--richvpl-radiance", "--richvpl-texels", "--richvpl-lobes"}));
+  EXPECT_EQ(warnings("--lights richvpl --num-lights 16 --richvpl-lights 9 --richvpl-lobes 4 "
+                     "--gather all --memory 1G"),
+            Names{});
   EXPECT_EQ(warnings("--lights photon --num-lights 99 --gather all --gather-rays 2"),
             Names{"--gather"});
   EXPECT_EQ(warnings("--num-lights 16 --exposure 1 --checkpoint-interval 3"),

@@ -46,7 +46,7 @@ struct SglcQuality {
   void (*set)(RenderOptions&, double);
 };
 
-// All strategies but brute force, sglc by its modes, richvpl by its forms.
+// All strategies but brute force, sglc by its modes, and --lights richvpl by its forms.
 std::vector<SglcMethod> sglcMethods();
 SglcMethod defaultMethod();
 SglcMethod conservative(SglcMethod paper);               // sglc in mode paper by E_c

@@ -1,5 +1,5 @@
-// The strategies of `lobelia methods`, so that new ones take part by themselves, and what sets the
-// quality of each.
+// The strategies of `lobelia methods`, so that new ones take part by themselves, Rich-VPLs of the
+// same lights, and what sets the quality of each.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,9 +58,10 @@ SglcMethod byMode(const std::string& mode) {
           }};
 }
 
+// The same lights, merged; gathered by brute force.
 SglcMethod byRadiance(const std::string& form) {
   return {"richvpl-" + form, "richvpl, " + form, [form](RenderOptions& options) {
-            options.gather = "richvpl";
+            options.lights = "richvpl";
             options.richRadiance = form;
           }};
 }
@@ -89,8 +90,6 @@ std::vector<SglcMethod> sglcMethods() {
     if (strategy.name == "all" || !gathersGlossyLights(strategy.name)) continue;
     if (strategy.name == "sglc") {
       for (const char* mode : {"shared", "unbiased", "paper"}) methods.push_back(byMode(mode));
-    } else if (strategy.name == "richvpl") {
-      for (const char* form : {"cube", "vmf"}) methods.push_back(byRadiance(form));
     } else if (strategy.name == "mrcs") {
       methods.push_back(byColumns());
     } else {
@@ -98,6 +97,7 @@ std::vector<SglcMethod> sglcMethods() {
                          [name = strategy.name](RenderOptions& o) { o.gather = name; }});
     }
   }
+  for (const char* form : {"cube", "vmf"}) methods.push_back(byRadiance(form));
   return methods;
 }
 

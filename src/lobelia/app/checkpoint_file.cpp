@@ -144,15 +144,6 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--columns", std::to_string(sliceColumnsOf(o)));
     s.emplace_back("--memory", std::to_string(memoryOf(o)));
   }
-  if (o.gather == "richvpl") {
-    s.emplace_back("--richvpl-lights", std::to_string(richLightsOf(o)));
-    s.emplace_back("--richvpl-radiance", richRadianceOf(o));
-    if (richRadianceOf(o) == "cube") {
-      s.emplace_back("--richvpl-texels", std::to_string(richTexelsOf(o)));
-    } else {
-      s.emplace_back("--richvpl-lobes", std::to_string(richLobesOf(o)));
-    }
-  }
   if (o.gather == "sglc") {
     s.emplace_back("--sglc-mode", cutModeOf(o));
     if (!gathersPairs(o)) s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));
@@ -169,6 +160,15 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--vsl-indicator", o.sphereIndicator);
     s.emplace_back("--vsl-sampling", o.sphereSampling);
     s.emplace_back("--vsl-samples", std::to_string(o.sphereSamples));
+  }
+  if (o.lights == "richvpl") {
+    s.emplace_back("--richvpl-lights", std::to_string(richLightsOf(o)));
+    s.emplace_back("--richvpl-radiance", richRadianceOf(o));
+    if (richRadianceOf(o) == "cube") {
+      s.emplace_back("--richvpl-texels", std::to_string(richTexelsOf(o)));
+    } else {
+      s.emplace_back("--richvpl-lobes", std::to_string(richLobesOf(o)));
+    }
   }
   s.emplace_back("--num-lights", std::to_string(o.lightCount));
   if (o.direct == "lights") s.emplace_back("--env-lights", std::to_string(o.environmentLights));

@@ -36,6 +36,7 @@ void requireMode(const RenderOptions& options) {
 }
 
 void requireRadiance(const RenderOptions& options) {
+  if (options.lights != "richvpl") return;
   const bool cube = richRadianceOf(options) == "cube";
   if (options.richTexels > 0 && !cube)
     throw UsageError(
@@ -81,10 +82,6 @@ void requireGather(const RenderOptions& options) {
         Owned{"--bound", {"sglc"}, !options.bound.empty()},
         Owned{"--sglc-bounds", {"sglc"}, !options.boundForm.empty()},
         Owned{"--sglc-share", {"sglc"}, !options.shared.empty()},
-        Owned{"--richvpl-lights", {"richvpl"}, options.richLights > 0},
-        Owned{"--richvpl-radiance", {"richvpl"}, !options.richRadiance.empty()},
-        Owned{"--richvpl-texels", {"richvpl"}, options.richTexels > 0},
-        Owned{"--richvpl-lobes", {"richvpl"}, options.richLobes > 0},
         Owned{"--sglc-children", {"sglc"}, !options.children.empty()}}) {
     if (given &&
         std::find(strategies.begin(), strategies.end(), options.gather) == strategies.end())
@@ -104,7 +101,7 @@ size_t gatheredLights(size_t lights, const RenderOptions& options) {
   if (gathersPairs(options) || options.gather == "illumcut") return std::min(lights, kNodes);
   if (hasCutSize(options)) return std::min(lights, kCostOfChoice * cutSizeOf(options));
   if (options.gather == "lightslice") return std::min(lights, sliceColumnsOf(options));
-  if (options.gather == "richvpl") return std::min(lights, richLightsOf(options));
+  if (options.lights == "richvpl") return std::min(lights, richLightsOf(options));
   return options.gather == "mrcs" ? std::min(lights, mostColumns(options)) : lights;
 }
 

@@ -87,7 +87,7 @@ gather::RichSettings richSettings(const RenderOptions& options, const GatherSett
 // Pixels of which slices are made, or for which places are chosen.
 size_t sampledPixels(const RenderOptions& options) {
   constexpr size_t kPixelsPerSlice = 64, kPixelsOfPlaces = 128;
-  return options.gather == "richvpl" ? kPixelsOfPlaces : kPixelsPerSlice * slicesOf(options);
+  return options.lights == "richvpl" ? kPixelsOfPlaces : kPixelsPerSlice * slicesOf(options);
 }
 
 template <class Strategy, class Settings>
@@ -147,7 +147,7 @@ LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, c
     if (options.gather == "lightslice")
       return prepareFor<gather::LightSlices>(tracer, sampled(), lights,
                                              sliceSettings(options, settings_), own, context);
-    if (options.gather == "richvpl")
+    if (options.lights == "richvpl")
       return prepareFor<gather::RichLights>(tracer, sampled(), lights,
                                             richSettings(options, settings_), own, context);
     return nullptr;

@@ -1,4 +1,5 @@
-// A set of lights, ready to be gathered by the strategy that the user chose.
+// A set of lights, ready to be gathered by the strategy that the user chose, and merged into
+// Rich-VPLs if these are the lights.
 #pragma once
 
 #include <memory>
@@ -11,8 +12,8 @@ namespace lobelia::app {
 
 class LightGather {
  public:
-  // parts: as reduceParts() leaves them. When cancelled while it makes trees or slices, it is of no
-  // use.
+  // parts: as reduceParts() leaves them. When cancelled while it makes trees, slices or places, it
+  // is of no use.
   LightGather(const Tracer& tracer, const EmitterSampler& emitters, const Camera& camera,
               const BandPlan& plan, int set, LightParts parts, const RenderOptions& options,
               Context& context);

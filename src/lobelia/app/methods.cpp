@@ -12,12 +12,6 @@ namespace lobelia::app {
 const std::vector<LightModel>& lightModels() {
   static const std::vector<std::string> everyStrategy{
       "all", "mrcs", "lightslice", "lightcuts", "mdlc", "stochastic", "illumcut", "sglc"};
-  // Spherical lights have no intensity by directions that others' could be added to.
-  static const std::vector<std::string> withRichLights = [] {
-    std::vector<std::string> names = everyStrategy;
-    names.insert(names.end() - 1, "richvpl");
-    return names;
-  }();
   static const std::vector<LightModel> models{
       {"path",
        "reference path tracing: next-event estimation and BSDF sampling, no virtual lights",
@@ -26,10 +20,13 @@ const std::vector<LightModel>& lightModels() {
       {"photon",
        "photon mapping with final gathering: photons around what receivers' rays meet",
        {}},
-      {"vpl", "diffuse virtual point lights only, clamped by default", withRichLights},
-      {"glossy", "diffuse and spherical-Gaussian lights", withRichLights},
+      {"vpl", "diffuse virtual point lights only, clamped by default", everyStrategy},
+      {"glossy", "diffuse and spherical-Gaussian lights", everyStrategy},
       {"vsl", "virtual spherical lights: any material at both ends, no spikes, no clamp",
        everyStrategy},
+      {"richvpl",
+       "Rich-VPLs: few places send out, by directions, all diffuse and glossy light around them",
+       {"all"}},
   };
   return models;
 }
@@ -51,8 +48,6 @@ const std::vector<GatherStrategy>& gatherStrategies() {
       {"illumcut",
        "IlluminationCut: pairs of light and receiver nodes, refined by upper bounds against a "
        "coarse picture"},
-      {"richvpl",
-       "Rich-VPLs: few places send out, by directions, the light of all lights around them"},
       {"sglc",
        "shared stochastic cuts: neighbouring receivers share lights drawn by a cut of a light "
        "tree; --sglc-mode paper: pairs of light and receiver nodes, refined by bounds"},

@@ -151,10 +151,10 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "--radius is above 2")
       ->type_name("K")
       ->check(finiteNumber(0, 1000));
-  c.add_option("--memory", o.memory,
-               "--gather mrcs, lightslice: memory for what is kept of all lights; richvpl: for its "
-               "lights; units K, M, G; "
-               "default: 2G")
+  c.add_option(
+       "--memory", o.memory,
+       "--gather mrcs, lightslice: memory for what is kept of all lights; --lights richvpl: "
+       "for its places; units K, M, G; default: 2G")
       ->type_name("BYTES")
       ->transform(byteCount());
   c.add_option("--sglc-mode", o.cutMode,
@@ -199,13 +199,13 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("WHICH")
       ->check(oneOf({"sampled", "full"}));
   c.add_option("--richvpl-lights", o.richLights,
-               "--gather richvpl: places that send out the light of all lights around them; "
+               "--lights richvpl: places that send out the light of all lights around them; "
                "default: 1000")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 24));
   c.add_option(
        "--richvpl-radiance", o.richRadiance,
-       "--gather richvpl: light of a place by directions, as a cube map, or as a mixture of "
+       "--lights richvpl: light of a place by directions, as a cube map, or as a mixture of "
        "Gaussian lobes (vmf, the default)")
       ->type_name("FORM")
       ->check(oneOf({"cube", "vmf"}));

@@ -45,13 +45,13 @@ struct RenderOptions {
   std::string sketch;       // numbers kept of each column, "off"; "": the method's default
   std::string columnScale = "scalar";
   float nearField = -1;   // of spherical lights, in radii; below 0: the default
-  uint64_t memory = 0;    // bytes for columns or Rich-VPLs; 0: the strategy's default
+  uint64_t memory = 0;    // bytes for columns or Rich-VPLs; 0: the default
   std::string cutMode;    // of --gather sglc; "": the default
   size_t cutSize = 0;     // of cuts of light trees; 0: the strategy's default
   double threshold = -1;  // of bounds, over all light; below 0: the default
   std::string bound, boundForm, shared, children;  // of --sglc-mode paper; "": the default
   std::string illumcutRays;                        // of --gather illumcut; "": the default
-  size_t richLights = 0;     // of --gather richvpl, from here on; 0, "": the default
+  size_t richLights = 0;     // of --lights richvpl, from here on; 0, "": the default
   std::string richRadiance;  // "cube", "vmf"
   int richTexels = 0, richLobes = 0;
   std::string direct = "nee";

@@ -81,6 +81,13 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"photons", report.photons},
                     {"particles", lights.particles},
                     {"sets", report.sets}};
+  if (options.lights == "richvpl") {
+    const double richLights = static_cast<double>(s.count("rich_lights"));
+    json["lights"]["radiance"] = richRadianceOf(options);
+    json["lights"]["rich_lights"] = s.count("rich_lights");
+    json["lights"]["bytes_per_rich_light"] =
+        ratio(static_cast<double>(s.count("rich_bytes")), richLights);
+  }
   json["gather"] = {{"strategy", gathers ? options.gather : "none"},
                     {"mode", options.gather == "sglc" && gathers ? cutModeOf(options) : ""},
                     {"bound", pairs ? boundOf(options) : ""},
@@ -96,13 +103,6 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
   if (options.gather == "lightslice" && gathers) {
     json["gather"]["slices"] = slicesOf(options);
     json["gather"]["columns"] = sliceColumnsOf(options);
-  }
-  if (options.gather == "richvpl" && gathers) {
-    const double richLights = static_cast<double>(s.count("rich_lights"));
-    json["gather"]["radiance"] = richRadianceOf(options);
-    json["gather"]["rich_lights"] = s.count("rich_lights");
-    json["gather"]["bytes_per_rich_light"] =
-        ratio(static_cast<double>(s.count("rich_bytes")), richLights);
   }
   if (gathers && hasCutSize(options)) json["gather"]["cut_size"] = cutSizeOf(options);
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};

@@ -45,8 +45,8 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
   };
   const bool virtualLights = usesVirtualLights(options);
   report("--memory",
-         options.gather != "mrcs" && options.gather != "lightslice" && options.gather != "richvpl",
-         "only --gather mrcs, lightslice and richvpl keep more where there is room");
+         options.gather != "mrcs" && options.gather != "lightslice" && options.lights != "richvpl",
+         "only --gather mrcs and lightslice and --lights richvpl keep more where there is room");
   for (const char* name : kOfVirtualLights)
     report(name, !virtualLights, fmt::format("--lights {} has no virtual lights", options.lights));
   if (virtualLights) {
@@ -66,6 +66,9 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
   for (const char* name :
        {"--radius", "--vsl-indicator", "--vsl-sampling", "--vsl-samples", "--near-field"})
     report(name, options.lights != "vsl", "only --lights vsl has spherical lights");
+  for (const char* name :
+       {"--richvpl-lights", "--richvpl-radiance", "--richvpl-texels", "--richvpl-lobes"})
+    report(name, options.lights != "richvpl", "only --lights richvpl has Rich-VPLs");
   report("--clamp", options.lights == "vsl" && options.clamp != "off",
          "spherical lights have no spikes to clamp");
   for (const char* name : {"--photons-nearest", "--photon-radius", "--gather-rays"})

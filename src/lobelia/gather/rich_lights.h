@@ -1,4 +1,4 @@
-// Rich-VPLs [Simon15]: a gather strategy for many glossy lights. Few places stand for all diffuse
+// Rich-VPLs [Simon15]: a light model for many glossy lights. Few places stand for all diffuse
 // and glossy lights (rich_places.h); each sends out, over directions, what all the lights joined to
 // it send (rich_radiance.h), and every receiver gathers all places with one shadow ray each.
 //
@@ -6,7 +6,7 @@
 // lights as places and the detail of their directions grow.
 //
 // Deviations from the paper, whose particles are photons of a light pass of its own: they are the
-// virtual lights that all other strategies gather; lights of other classes (omni, directional,
+// virtual lights of the model 'glossy'; lights of other classes (omni, directional,
 // spherical) are gathered one by one as they are. A receiver that may not gather lights of all
 // depths takes from each place the share of its power that it may. Other deviations are named in
 // the files above. Everything runs on the CPU, where [P000 section 7] has it on a GPU.

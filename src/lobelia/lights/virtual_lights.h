@@ -80,7 +80,7 @@ struct SphereShading {
 // Lights of one class are sorted by depth: depthEnds[d] is the number of lights with depth <= d,
 // where depth is the number of edges between the emitter and the light (0: on the emitter itself).
 struct VirtualLights {
-  std::string model;  // "vpl", "glossy", "vsl"
+  std::string model;  // "vpl", "glossy", "vsl", "richvpl"
   std::vector<OmniLight> omni;
   std::vector<DirectionalLight> directional;
   std::vector<DiffuseLight> diffuse;
