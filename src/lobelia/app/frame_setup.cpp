@@ -245,7 +245,8 @@ void requireWritableFolder(const std::string& folder) {
   if (!fs::is_directory(there, error))
     throw UsageError(
         fmt::format("cannot write into {}: {} is not a folder", folder, there.string()));
-  requireWritable((there / "scene.xml").string());
+  if (const std::string why = whyNotWritable((there / "scene.xml").string()); !why.empty())
+    throw UsageError(fmt::format("cannot write into {}: {}", folder, why));
 }
 
 void requireOutputs(const RenderOptions& options) {
