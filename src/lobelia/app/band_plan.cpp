@@ -40,8 +40,12 @@ BandPlan planBands(const Tracer& tracer, const PixelSet& pixels, int maxDepth, s
         std::min((plan.eye.sampleCount + plan.sets - 1) / plan.sets, kSamplesTogether);
   const size_t bandPixels = std::min(kBandPixels, kPairs / std::max<size_t>(lights, 1)) /
                             static_cast<size_t>(plan.samplesTogether);
-  const size_t width = static_cast<size_t>(std::max(film.width, 1));
-  plan.bandRows = static_cast<int>(std::clamp<size_t>(bandPixels / width / 8 * 8, 8, 4096));
+  const double width = std::max(film.width, 1);
+  const double share = pixels.pixels.empty()  // of the rows' pixels
+                           ? 1
+                           : static_cast<double>(pixels.pixels.size()) / (width * film.height);
+  const double rows = static_cast<double>(bandPixels) / (width * share);
+  plan.bandRows = std::clamp(static_cast<int>(std::min(rows, 4096.0)) / 8 * 8, 8, 4096);
   plan.bands = (film.height + plan.bandRows - 1) / plan.bandRows;
   return plan;
 }

@@ -6,8 +6,10 @@
 // seen at once: rays to one light from 16 neighbours in the array are coherent.
 #include "lobelia/path/receivers.h"
 
+#include <algorithm>
 #include <array>
 
+#include "lobelia/base/morton.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/path/receiver_walk.h"
 
@@ -45,12 +47,19 @@ std::vector<Tile> allTiles(int width, int y0, int y1) {
   return tiles;
 }
 
-// Chosen pixels are far from one another: any group of them will do.
+// Chosen pixels may be far from one another: along a Morton curve, too.
 std::vector<Tile> chosenTiles(const PixelSet& set, int width, int y0, int y1) {
-  std::vector<Tile> tiles;
+  const auto columns = static_cast<uint32_t>(width);
+  std::vector<uint32_t> pixels;
   for (const uint32_t pixel : set.pixels) {
-    const int y = static_cast<int>(pixel / static_cast<uint32_t>(width));
-    if (y < y0 || y >= y1) continue;
+    const int y = static_cast<int>(pixel / columns);
+    if (y >= y0 && y < y1) pixels.push_back(pixel);
+  }
+  std::sort(pixels.begin(), pixels.end(), [&](uint32_t a, uint32_t b) {
+    return morton(a % columns, a / columns) < morton(b % columns, b / columns);
+  });
+  std::vector<Tile> tiles;
+  for (const uint32_t pixel : pixels) {
     if (tiles.empty() || tiles.back().pixels.size() == kTile * kTile) tiles.emplace_back();
     tiles.back().pixels.push_back(pixel);
   }
