@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -33,6 +34,10 @@ void parallelRanges(size_t count, size_t grain, const std::function<void(size_t,
   } else {
     loop();
   }
+}
+
+void parallelSort(std::vector<uint64_t>* keys) {
+  tbb::this_task_arena::isolate([&] { tbb::parallel_sort(keys->begin(), keys->end()); });
 }
 
 int threadCount() {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace lobelia {
 
@@ -19,7 +21,10 @@ void parallelFor(size_t count, size_t grain, const F& f) {
   });
 }
 
-int threadCount();              // threads that loops use
+// Ascending.
+void parallelSort(std::vector<uint64_t>* keys);
+
+int threadCount();  // threads that loops use
 // Limits the threads of every loop until destroyed; 0 keeps the machine's number.
 class ThreadLimit {
  public:

@@ -2,7 +2,8 @@
 //
 // Pairs that face each other are compacted into a queue in the order light, strip, lane; whenever
 // 16 rays have gathered they are traced as a packet. Neighbours in it come from neighbouring points
-// and mostly go to one light, which is what makes packets coherent.
+// and mostly go to one light, which is what makes packets coherent. Where the points of a strip lie
+// further apart than the lights (a few pixels of a picture), the order is strip, lane, light.
 #if defined(LOBELIA_GATHER_VISIBILITY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_GATHER_VISIBILITY_INL_H_
 #undef LOBELIA_GATHER_VISIBILITY_INL_H_
@@ -10,7 +11,9 @@
 #define LOBELIA_GATHER_VISIBILITY_INL_H_
 #endif
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "lobelia/gather/facing-inl.h"
 #include "lobelia/gather/kernels.h"
@@ -38,6 +41,12 @@ class RayQueue {
     hn::StoreU(hn::Compress(ids, hn::RebindMask(di, mask.m)), di, pair_ + count_);
     count_ += hn::CountTrue(d, mask.m);
     if (count_ >= ShadowPacket::kSize) trace(ShadowPacket::kSize);
+  }
+  void push(Vec3f origin, Vec3f direction, uint32_t pair) {
+    ox_[count_] = origin.x, oy_[count_] = origin.y, oz_[count_] = origin.z;
+    dx_[count_] = direction.x, dy_[count_] = direction.y, dz_[count_] = direction.z;
+    pair_[count_] = static_cast<int32_t>(pair);
+    if (++count_ == ShadowPacket::kSize) trace(ShadowPacket::kSize);
   }
   void flush() {
     if (count_ > 0) trace(count_);
@@ -88,45 +97,129 @@ class RayQueue {
   size_t traced_ = 0;
 };
 
+// Do the points of a strip lie further apart than the lights of a block? Then rays from one point
+// to the lights are coherent, not those from the points to one light.
+inline bool apart(const g::PointStrip& strip, const Bounds3f& lights) {
+  Bounds3f points;
+  for (int lane = 0; lane < g::kStrip; ++lane) points.add(strip.p.get(lane));
+  return length(points.extent()) > length(lights.extent());
+}
+
+// Rays from the points of a strip to the lights of a block.
+class StripRays {
+ public:
+  StripRays() : masks_{} {}
+  HWY_INLINE void put(size_t light, size_t lane, Mf mask, V3<Vf> origin, V3<Vf> direction) {
+    const Vf values[] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
+    for (size_t i = 0; i < 6; ++i) values[i].store(&rays_[light][i][lane]);
+    masks_[light] |= maskBits(mask) << lane;
+  }
+  // Point by point, and forgets them. firstPair, stride: numbers of the pairs of lane 0.
+  void drain(uint32_t firstPair, uint32_t stride, RayQueue* queue) {
+    for (uint32_t lane = 0; lane < g::kStrip; ++lane)
+      for (uint32_t light = 0; light < g::kBlockLights; ++light) {
+        if (!(masks_[light] >> lane & 1)) continue;
+        const auto at = [&](size_t i) { return rays_[light][i][lane]; };
+        queue->push({at(0), at(1), at(2)}, {at(3), at(4), at(5)},
+                    firstPair + light * stride + lane);
+      }
+    std::fill(std::begin(masks_), std::end(masks_), 0u);
+  }
+
+ private:
+  alignas(64) float rays_[g::kBlockLights][6][g::kStrip];
+  uint32_t masks_[g::kBlockLights];
+};
+
+template <g::LightClass kClass>
+class VisiblePairs {
+ public:
+  VisiblePairs(const g::Tile& tile, const g::LightBlock& block, const Tracer& tracer,
+               g::PairMasks* pairs)
+      : tile_(tile),
+        block_(block),
+        pairs_(*pairs),
+        // Ends of rays are off the lights' surfaces already.
+        queue_(tracer, pairs, kInfinite ? 3.4e38f : 1.f) {}
+
+  size_t run() {
+    uint32_t wide = 0;  // bit per strip
+    if (!kInfinite) {
+      Bounds3f lights;
+      for (size_t l = 0; l < lightCount(); ++l) lights.add(block_.lights[l].p);
+      for (size_t s = 0; s < tile_.strips.size(); ++s)
+        wide |= uint32_t{apart(tile_.strips[s], lights)} << s;
+    }
+    for (size_t l = 0; l < lightCount(); ++l)
+      for (size_t s = 0; s < tile_.strips.size(); ++s)
+        if (!(wide >> s & 1))
+          forRays(l, s, [&](size_t lane, Mf mask, V3<Vf> origin, V3<Vf> direction) {
+            queue_.push(mask, origin, direction, pairOf(l, s) + static_cast<uint32_t>(lane));
+          });
+    if (wide != 0) runWide(wide);
+    queue_.flush();
+    return queue_.traced();
+  }
+
+ private:
+  static constexpr bool kInfinite = kClass == g::LightClass::directional;
+
+  size_t lightCount() const { return static_cast<size_t>(block_.count); }
+  uint32_t pairOf(size_t l, size_t s) const {  // of lane 0
+    return static_cast<uint32_t>((l * pairs_.strips + s) * g::kStrip);
+  }
+
+  void runWide(uint32_t strips) {
+    StripRays rays;
+    for (; strips != 0; strips &= strips - 1) {
+      const auto s = static_cast<size_t>(__builtin_ctz(strips));
+      for (size_t l = 0; l < lightCount(); ++l)
+        forRays(l, s, [&](size_t lane, Mf mask, V3<Vf> origin, V3<Vf> direction) {
+          rays.put(l, lane, mask, origin, direction);
+        });
+      rays.drain(pairOf(0, s), pairOf(1, 0), &queue_);
+    }
+  }
+
+  // use(lane, mask, origin, direction) for the candidates that face each other.
+  template <class Use>
+  HWY_INLINE void forRays(size_t l, size_t s, const Use& use) {
+    const uint32_t candidates = pairs_.at(l, s);
+    pairs_.at(l, s) = 0;  // the queue sets visible ones again
+    if (candidates == 0) return;
+    const g::PreparedLight& light = block_.lights[l];
+    const g::PointStrip& strip = tile_.strips[s];
+    for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
+      const V3<Vf> d = toLight<kClass>(light, load(strip.p, lane));
+      const Mf mask = lightFaces<kClass>(light, d) & receiverFaces(strip, lane, d) &
+                      maskFromBits(candidates >> lane);
+      if (!any(mask)) continue;
+      if (pairs_.traced != nullptr) {
+        (*pairs_.traced)[l * pairs_.strips + s] |= static_cast<uint16_t>(maskBits(mask) << lane);
+      }
+      const Mf front = dot(load(strip.ng, lane), d) >= Vf(0.f);
+      const V3<Vf> origin = choose(front, load(strip.front, lane), load(strip.back, lane));
+      V3<Vf> end = broadcast(light.end);
+      if constexpr (kClass == g::LightClass::spherical)
+        end = choose(dot(broadcast(light.n), d) > Vf(0.f), broadcast(light.endBehind), end);
+      use(lane, mask, origin, kInfinite ? end : end - origin);
+    }
+  }
+
+  HWY_INLINE static V3<Vf> choose(Mf mask, V3<Vf> a, V3<Vf> b) {
+    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+  }
+
+  const g::Tile& tile_;
+  const g::LightBlock& block_;
+  g::PairMasks& pairs_;
+  RayQueue queue_;
+};
+
 template <g::LightClass kClass>
 size_t keepVisibleOf(const g::Tile& tile, const g::LightBlock& block, const Tracer& tracer,
                      g::PairMasks* pairs) {
-  constexpr bool kInfinite = kClass == g::LightClass::directional;
-  // Ends of rays are off the lights' surfaces already.
-  RayQueue queue(tracer, pairs, kInfinite ? 3.4e38f : 1.f);
-  for (size_t l = 0; l < static_cast<size_t>(block.count); ++l) {
-    const g::PreparedLight& light = block.lights[l];
-    for (size_t s = 0; s < tile.strips.size(); ++s) {
-      const uint32_t candidates = pairs->at(l, s);
-      pairs->at(l, s) = 0;  // the queue sets visible ones again
-      if (candidates == 0) continue;
-      const g::PointStrip& strip = tile.strips[s];
-      for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
-        const V3<Vf> d = toLight<kClass>(light, load(strip.p, lane));
-        const Mf mask = lightFaces<kClass>(light, d) & receiverFaces(strip, lane, d) &
-                        maskFromBits(candidates >> lane);
-        if (!any(mask)) continue;
-        if (pairs->traced != nullptr) {
-          (*pairs->traced)[l * pairs->strips + s] |= static_cast<uint16_t>(maskBits(mask) << lane);
-        }
-        const Mf front = dot(load(strip.ng, lane), d) >= Vf(0.f);
-        const V3<Vf> f = load(strip.front, lane), b = load(strip.back, lane);
-        const V3<Vf> origin{select(front, f.x, b.x), select(front, f.y, b.y),
-                            select(front, f.z, b.z)};
-        V3<Vf> end = broadcast(light.end);
-        if constexpr (kClass == g::LightClass::spherical) {
-          const Mf behind = dot(broadcast(light.n), d) > Vf(0.f);
-          const V3<Vf> other = broadcast(light.endBehind);
-          end = {select(behind, other.x, end.x), select(behind, other.y, end.y),
-                 select(behind, other.z, end.z)};
-        }
-        const uint32_t pair = static_cast<uint32_t>((l * pairs->strips + s) * g::kStrip + lane);
-        queue.push(mask, origin, kInfinite ? end : end - origin, pair);
-      }
-    }
-  }
-  queue.flush();
-  return queue.traced();
+  return VisiblePairs<kClass>(tile, block, tracer, pairs).run();
 }
 
 LOBELIA_CORE_END

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <utility>
 
+#include "lobelia/base/morton.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/lights/particle_walk.h"
 #include "lobelia/lights/spherical_coverage.h"
@@ -112,6 +113,34 @@ std::vector<uint32_t> sortByDepth(const std::vector<ParticleBatch>& batches, con
   return ends;
 }
 
+// Lights of a class as sortByDepth() leaves them, in each depth along a Morton curve: neighbours in
+// the array are neighbours in the scene, so that shadow rays to a block of them are coherent. Takes
+// what is parallel to the lights along.
+template <class Light, class... Parallel>
+void sortByPlace(const Bounds3f& bounds, const std::vector<uint32_t>& ends,
+                 std::vector<Light>* lights, Parallel*... parallel) {
+  const float scale = 1 / std::max(maxComponent(bounds.extent()), 1e-30f);
+  size_t begin = 0;
+  for (const uint32_t end : ends) {
+    std::vector<uint64_t> keys(end - begin);
+    parallelFor(keys.size(), 4096, [&](size_t i) {
+      const size_t light = begin + i;
+      keys[i] = uint64_t{morton(((*lights)[light].p - bounds.lo) * scale)} << 32 | light;
+    });
+    parallelSort(&keys);
+    const auto permute = [&](auto* values) {
+      const std::decay_t<decltype(*values)> old(values->begin() + static_cast<ptrdiff_t>(begin),
+                                                values->begin() + end);
+      parallelFor(keys.size(), 4096, [&](size_t i) {
+        (*values)[begin + i] = old[static_cast<uint32_t>(keys[i]) - begin];
+      });
+    };
+    permute(lights);
+    (permute(parallel), ...);
+    begin = end;
+  }
+}
+
 void countParticles(const std::vector<ParticleBatch>& batches, Context& context) {
   ParticleBatch total;
   for (const ParticleBatch& b : batches) {
@@ -124,7 +153,8 @@ void countParticles(const std::vector<ParticleBatch>& batches, Context& context)
   context.statistics.addCount("nonfinite", total.nonFinite);
 }
 
-void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, Context& context) {
+void collect(const std::vector<ParticleBatch>& batches, const Bounds3f& bounds,
+             VirtualLights* lights, Context& context) {
   lights->diffuseDepthEnds = sortByDepth(
       batches, [](const ParticleBatch& b) -> auto& { return b.diffuse; },
       [](const ParticleBatch& b, size_t i) -> size_t { return b.diffuse[i].tag & 0xff; },
@@ -140,6 +170,9 @@ void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, C
       batches, [](const ParticleBatch& b) -> auto& { return b.spherical; },
       [](const ParticleBatch& b, size_t i) -> size_t { return b.spherical[i].depth; },
       &lights->spherical);
+  sortByPlace(bounds, lights->diffuseDepthEnds, &lights->diffuse);
+  sortByPlace(bounds, lights->glossyDepthEnds, &lights->glossy, &lights->glossyGroups);
+  sortByPlace(bounds, lights->sphericalDepthEnds, &lights->spherical);
   countParticles(batches, context);
 }
 
@@ -187,7 +220,7 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   const uint64_t particles = chooseParticleCount(tracer, emitters, settings, context);
   const float scale = static_cast<float>(1.0 / static_cast<double>(particles));
   const ParticleWalk walk(tracer, emitters, settings, lights.seed, kStream, scale);
-  collect(traceParticles(walk, particles, context, true), &lights, context);
+  collect(traceParticles(walk, particles, context, true), tracer.bounds(), &lights, context);
   if (!context.cancelled() && !lights.spherical.empty()) {
     chooseRadii(tracer, settings, &lights, context);
     coverSurfaces(tracer, &lights, context);
