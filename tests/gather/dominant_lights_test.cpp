@@ -74,8 +74,8 @@ TEST_F(Dominant, LightsFindWhereTheyMatter) {
     Tile tile = makeTile(clusters.receivers, cluster.begin, cluster.end);
     addSampling(clusters.receivers, &tile);
     ClusterTarget& target = targets.emplace_back();
-    target.count = cluster.representatives;
-    target.receivers = peaks(cutReceivers(tile, clusters.receivers), target.count);
+    target.representatives = cluster.representatives;
+    target.receivers = cutReceivers(tile, clusters.receivers);
     target.least = 0.3f;
   }
   const DominantLights dominant(targets, trees, context_);

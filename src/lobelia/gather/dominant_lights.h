@@ -19,16 +19,17 @@ namespace lobelia::gather {
 
 // A cluster of receivers as the lights see it.
 struct ClusterTarget {
-  CutReceivers receivers;  // representatives(); those that are near each other
-  int count = 0;           // of them; 0: no light counts
-  float least = 0;         // what a light has to give to count, as nodeImportance() tells it
+  CutReceivers receivers;
+  int representatives = 0;  // that tell of them from afar (peaks()); 0: no light counts
+  // What a light has to give one of them to count, as nodeImportance() tells it.
+  float least = 0;
 };
 
 class DominantLights {
  public:
   DominantLights() = default;
   // clusters: neighbours one after the other. A light counts at a cluster that does for one of its
-  // representatives. The same for any number of threads. Incomplete when cancelled.
+  // receivers. The same for any number of threads. Incomplete when cancelled.
   DominantLights(const std::vector<ClusterTarget>& clusters,
                  std::span<const trees::LightTree> trees, const Context& context);
 

@@ -39,14 +39,12 @@ class LightCuts::ClusterGather {
   // As lights look for the cluster.
   ClusterTarget target(const ReceiverClusters::Cluster& cluster, uint64_t* evaluations) {
     constexpr size_t kNodes = 64;
-    const CutReceivers receivers = cutReceivers(tileOf(cluster), receivers_);
     ClusterTarget target;
+    target.receivers = cutReceivers(tileOf(cluster), receivers_);
     target.least = kCandidateShare * kDominant *
-                   estimateAll(receivers, cluster.representatives, cuts_.trees_,
+                   estimateAll(target.receivers, cluster.representatives, cuts_.trees_,
                                cuts_.settings_.cut, kNodes, &scratch_, evaluations);
-    if (!(target.least > 0)) return target;
-    target.receivers = peaks(receivers, cluster.representatives);
-    target.count = cluster.representatives;
+    if (target.least > 0) target.representatives = cluster.representatives;
     return target;
   }
 

@@ -55,6 +55,12 @@ PreparedLight prepared(const GlossyLight& light) {
 
 template <class Light>
 void prepareAll(const std::vector<Light>& lights, LightBlock* block) {
+  // Lights may be anywhere: memory is waited for together.
+  for (int i = 0; i < block->count; ++i) {
+    const Light* light = &lights[block->index[i]];
+    __builtin_prefetch(light);
+    __builtin_prefetch(reinterpret_cast<const char*>(light + 1) - 1);
+  }
   for (int i = 0; i < block->count; ++i) {
     block->lights[i] = prepared(lights[block->index[i]]);
   }

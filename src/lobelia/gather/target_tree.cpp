@@ -21,10 +21,10 @@ float peakOf(const CutReceivers& receivers, int lane) {
   return peak * receivers.weight[lane];
 }
 
-Bound boundOf(const ClusterTarget& target, int lane) {
-  Bound bound{target.receivers.p.get(lane), target.receivers.placeSlack[lane], kNever};
-  const float peak = peakOf(target.receivers, lane);
-  if (peak > 0) bound.least = target.least / peak;
+Bound boundOf(const CutReceivers& receivers, int lane, float least) {
+  Bound bound{receivers.p.get(lane), receivers.placeSlack[lane], kNever};
+  const float peak = peakOf(receivers, lane);
+  if (peak > 0) bound.least = least / peak;
   return bound;
 }
 
@@ -66,20 +66,21 @@ std::vector<BoundStrip> stripsOf(const std::vector<Bound>& bounds) {
 
 }  // namespace
 
-TargetTree::TargetTree(const std::vector<ClusterTarget>& all) {
+TargetTree::TargetTree(const std::vector<ClusterTarget>& all) : clusters(all) {
   std::vector<Bound> bounds;
-  for (uint32_t cluster = 0; cluster < all.size(); ++cluster) {
-    const ClusterTarget& target = all[cluster];
-    if (target.count == 0) continue;
-    for (int i = 0; i < kStrip; i += kStrip / target.count) {
-      if (!(target.receivers.weight[i] > 0)) continue;
+  for (uint32_t c = 0; c < all.size(); ++c) {
+    const ClusterTarget& cluster = all[c];
+    if (cluster.representatives == 0) continue;
+    const CutReceivers receivers = peaks(cluster.receivers, cluster.representatives);
+    const int run = kStrip / cluster.representatives;
+    for (int i = 0; i < kStrip; i += run) {
+      if (!(receivers.weight[i] > 0)) continue;
       const int lane = static_cast<int>(bounds.size() % kStrip);
-      if (lane == 0) targets.emplace_back();
+      if (lane == 0) strips.emplace_back();
       for (int to = lane; to < (lane == 0 ? kStrip : lane + 1); ++to)  // the first fills the others
-        setLane(target.receivers, i, to, &targets.back().receivers);
-      targets.back().least[lane] = target.least;
-      bounds.push_back(boundOf(target, i));
-      clusters.push_back(cluster);
+        setLane(receivers, i, to, &strips.back());
+      bounds.push_back(boundOf(receivers, i, cluster.least));
+      targets.push_back({c, ((1u << run) - 1) << i});
     }
   }
   levels.push_back(stripsOf(bounds));

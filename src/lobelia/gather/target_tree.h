@@ -1,6 +1,8 @@
 // A tree of the representatives that lights look for (dominant_lights.h): 16 to a node.
 #pragma once
 
+#include <vector>
+
 #include "lobelia/gather/dominant_lights.h"
 
 namespace lobelia::gather {
@@ -13,17 +15,18 @@ struct BoundStrip {
   alignas(64) float least[kStrip];
 };
 
-// 16 targets themselves.
-struct TargetStrip {
-  CutReceivers receivers;
-  alignas(64) float least[kStrip];  // ClusterTarget
-};
-
 struct TargetTree {
+  // It keeps a reference to the clusters.
   explicit TargetTree(const std::vector<ClusterTarget>& all);
-  std::vector<uint32_t> clusters;  // of the targets
-  std::vector<TargetStrip> targets;
-  std::vector<std::vector<BoundStrip>> levels;  // [0]: of the targets; the last: a single one
+
+  struct Target {
+    uint32_t cluster;
+    uint32_t lanes;  // bit per receiver of the cluster that it stands for
+  };
+  const std::vector<ClusterTarget>& clusters;
+  std::vector<Target> targets;
+  std::vector<CutReceivers> strips;             // 16 targets each
+  std::vector<std::vector<BoundStrip>> levels;  // [0]: of the strips; the last: a single one
 };
 
 // A light that counts at a cluster.

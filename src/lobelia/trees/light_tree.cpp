@@ -186,7 +186,7 @@ class Builder {
  public:
   using Item = Splitter::Item;
 
-  Builder(const std::vector<TreeLight>& lights, float scale, std::vector<LightNode>* nodes)
+  Builder(const std::vector<TreeLight>& lights, float scale, LargePageVector<LightNode>* nodes)
       : lights_(lights), nodes_(*nodes), items_(lights.size()) {
     const float inverseScale = 1 / std::max(scale, 1e-30f);
     parallelFor(items_.size(), 4096, [&](size_t i) {
@@ -240,7 +240,7 @@ class Builder {
   };
 
   const std::vector<TreeLight>& lights_;
-  std::vector<LightNode>& nodes_;
+  LargePageVector<LightNode>& nodes_;
   std::vector<Item> items_;
 };
 

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "lobelia/base/large_pages.h"
 #include "lobelia/base/vec.h"
 
 namespace lobelia::trees {
@@ -65,7 +66,7 @@ class LightTree {
   uint32_t light(uint32_t place) const { return lights_[place]; }
 
  private:
-  std::vector<LightNode> nodes_;
+  LargePageVector<LightNode> nodes_;
   std::vector<uint32_t> lights_;
 };
 
