@@ -179,8 +179,17 @@ class Descents {
   void run(std::vector<g::CutLight>* lights) {
     drawn_.assign(entries_.size(), {0, 0, 0});
     for (refill(); count_ > 0; refill()) step();
-    for (const g::CutLight& light : drawn_)
-      if (light.probability > 0) lights->push_back(light);
+    // Numbers of the lights, which so far are places: memory is waited for together.
+    const size_t first = lights->size();
+    for (const g::CutLight& light : drawn_) {
+      if (!(light.probability > 0)) continue;
+      hwy::Prefetch(tree_.lightAt(light.number));
+      lights->push_back(light);
+    }
+    for (size_t i = first; i < lights->size(); ++i) {
+      g::CutLight& light = (*lights)[i];
+      light.number = *tree_.lightAt(light.number);
+    }
   }
 
  private:
@@ -208,7 +217,7 @@ class Descents {
                              g::DominantLights::Leaf{entries_[at.entry].tree, at.node}))
         return;
       const float probability = static_cast<float>(at.probability);
-      drawn_[at.entry] = {tree_.light(node.link), probability, at.importance / probability};
+      drawn_[at.entry] = {node.link, probability, at.importance / probability};
       return;
     }
     hwy::Prefetch(&tree_.nodes()[tree_.left(at.node)]);
@@ -232,17 +241,14 @@ class Descents {
       const double a = double{values[2 * i]}, b = double{values[2 * i + 1]};
       if (!(a + b > 0)) continue;
       const double share = a / (a + b);
-      if (at.u < share) {
-        at.u /= share;
-        at.probability *= share;
-        at.node = tree_.left(at.node);
-        at.importance = values[2 * i];
-      } else {
-        at.u = std::min((at.u - share) / (1 - share), 0x1.fffffffffffffp-1);
-        at.probability *= 1 - share;
-        at.node = tree_.right(at.node);
-        at.importance = values[2 * i + 1];
-      }
+      // Without branches, which nobody could foretell.
+      const bool second = !(at.u < share);
+      const double chosen = second ? 1 - share : share;
+      at.u = std::min((at.u - (second ? share : 0)) / chosen, 0x1.fffffffffffffp-1);
+      at.probability *= chosen;
+      at.importance = values[2 * i + second];
+      const uint32_t left = tree_.left(at.node), right = tree_.right(at.node);
+      at.node = second ? right : left;
       keep(at);
     }
   }

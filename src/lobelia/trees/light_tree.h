@@ -64,6 +64,7 @@ class LightTree {
   uint32_t right(uint32_t i) const { return nodes_[i].link; }
   // Number of the light at a place of the leaves' order.
   uint32_t light(uint32_t place) const { return lights_[place]; }
+  const uint32_t* lightAt(uint32_t place) const { return &lights_[place]; }  // for prefetches
 
  private:
   LargePageVector<LightNode> nodes_;
