@@ -6,6 +6,7 @@
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
 #include "lobelia/gather/cut_kernels.h"
+#include "lobelia/gather/facing_pairs.h"
 #include "lobelia/gather/light_range.h"
 #include "lobelia/gather/tile_parts.h"
 
@@ -56,6 +57,34 @@ void gatherInParallel(size_t count, size_t grain, Context& context,
   all.book(context);
 }
 
+// Do the receivers of a strip see the same of the lights? Of each, for how many lights it is unlike
+// most.
+class ChosenGather::Agreement {
+ public:
+  // Bits per receiver: those that a light faces, and those that it reaches.
+  void add(uint32_t facing, uint32_t visible) {
+    const bool mostly = 2 * __builtin_popcount(visible) >= __builtin_popcount(facing);
+    const uint32_t unlike = mostly ? facing & ~visible : visible;
+    const uint32_t lit = mostly ? facing : visible;
+    for (int lane = 0; lane < kStrip; ++lane) {
+      unlike_[lane] += unlike >> lane & 1;
+      lit_[lane] += lit >> lane & 1;
+    }
+  }
+  bool agree() const {
+    for (int lane = 0; lane < kStrip; ++lane)
+      if (unlike_[lane] > 1 &&
+          static_cast<float>(unlike_[lane]) > kUnlike * static_cast<float>(lit_[lane]))
+        return false;
+    return true;
+  }
+
+ private:
+  // Of the lights that most or this one see. One alone tells of nothing.
+  static constexpr float kUnlike = 0.2f;
+  uint32_t unlike_[kStrip] = {}, lit_[kStrip] = {};
+};
+
 ChosenGather::ChosenGather(const Tracer& tracer, const Receivers& receivers,
                            std::span<const uint32_t> order, const VirtualLights& lights,
                            const std::vector<PreparedSphere>& spheres,
@@ -83,12 +112,14 @@ void ChosenGather::add(const Tile& tile, std::span<const ChosenLight> chosen,
   if (parts_ != nullptr) parts.emplace(receivers_, lights_, tile, parts_);
   for (const LightClass lightClass : kLightClasses) {
     if (parts) parts->beginClass(sums);
+    Agreement agreement;
     while (!chosen.empty() && chosen[0].lightClass == lightClass) {
       size_t count = 1;
       while (count < std::min(kBlockLights, chosen.size()) &&
-             chosen[count].lightClass == lightClass && chosen[count].shared == chosen[0].shared)
+             chosen[count].lightClass == lightClass && chosen[count].rays == chosen[0].rays)
         ++count;
-      addBlock(tile, chosen.first(count), seed, &sums, parts ? &*parts : nullptr, tally);
+      addBlock(tile, chosen.first(count), seed, &agreement, &sums, parts ? &*parts : nullptr,
+               tally);
       chosen = chosen.subspan(count);
     }
     if (parts) parts->endClass(lightClass, sums);
@@ -100,7 +131,8 @@ void ChosenGather::add(const Tile& tile, std::span<const ChosenLight> chosen,
 }
 
 void ChosenGather::addBlock(const Tile& tile, std::span<const ChosenLight> chosen, uint64_t seed,
-                            TileSums* sums, TileParts* parts, GatherTally* tally) {
+                            Agreement* agreement, TileSums* sums, TileParts* parts,
+                            GatherTally* tally) {
   const int64_t start = nanosecondsNow();
   uint32_t indices[kBlockLights];
   for (size_t i = 0; i < chosen.size(); ++i) indices[i] = static_cast<uint32_t>(chosen[i].index);
@@ -112,8 +144,17 @@ void ChosenGather::addBlock(const Tile& tile, std::span<const ChosenLight> chose
   const int64_t prepared = nanosecondsNow();
   const uint64_t own =
       hashCombine(hashCombine(seed, static_cast<uint64_t>(chosen[0].lightClass)), indices[0]);
-  tally->rays += chosen[0].shared ? keepVisibleByOne(tile, block_, tracer_, own, &pairs_)
-                                  : keepVisible(tile, block_, tracer_, &pairs_);
+  const ChosenLight::Rays rays = chosen[0].rays;
+  uint16_t facing[kBlockLights];
+  if (rays == ChosenLight::Rays::pilot) {
+    keepFacing(tile, block_, &pairs_);
+    for (size_t i = 0; i < chosen.size(); ++i) facing[i] = pairs_.at(i, 0);
+  }
+  tally->rays += rays == ChosenLight::Rays::shared && agreement->agree()
+                     ? keepVisibleByOne(tile, block_, tracer_, own, &pairs_)
+                     : keepVisible(tile, block_, tracer_, &pairs_);
+  if (rays == ChosenLight::Rays::pilot)
+    for (size_t i = 0; i < chosen.size(); ++i) agreement->add(facing[i], pairs_.at(i, 0));
   const int64_t traced = nanosecondsNow();
   shade(tile, block_, settings_.clamp, pairs_, sums);
   if (parts != nullptr) parts->add(block_, settings_.clamp, pairs_);

@@ -42,14 +42,15 @@ class ChosenGather {
 
   // A tile of receivers [begin, end), with what spherical lights need.
   Tile tileOf(size_t begin, size_t end) const;
-  // chosen: class by class, those that are shared first. Nothing is left out but what a receiver's
-  // depth forbids. seed: of the receivers from which shared rays start.
+  // chosen: class by class, in the order of ChosenLight::Rays. Nothing is left out but what a
+  // receiver's depth forbids. seed: of the receivers from which shared rays start.
   void add(const Tile& tile, std::span<const ChosenLight> chosen, std::span<Rgb> radiance,
            GatherTally* tally, uint64_t seed = 0);
 
  private:
+  class Agreement;
   void addBlock(const Tile& tile, std::span<const ChosenLight> chosen, uint64_t seed,
-                TileSums* sums, class TileParts* parts, GatherTally* tally);
+                Agreement* agreement, TileSums* sums, class TileParts* parts, GatherTally* tally);
   void write(const Tile& tile, const TileSums& sums, std::span<Rgb> radiance,
              GatherTally* tally) const;
 

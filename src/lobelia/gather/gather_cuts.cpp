@@ -24,6 +24,8 @@ uint64_t keyOf(const ReceiverPoint& point, uint64_t seed) {
 // Lights are looked for that make this share of a dominant one's, as far as the receivers' means
 // tell.
 constexpr float kCandidateShare = 0.5f;
+// Every so manieth light shows whether a cluster's receivers see alike.
+constexpr size_t kPilot = 16;
 
 }  // namespace
 
@@ -78,16 +80,18 @@ class LightCuts::ClusterGather {
   // What was drawn, in the order in which it is gathered.
   void choose(bool share) {
     chosen_.clear();
+    size_t sharing = 0;
     for (const CutLight& drawn : drawn_) {
       ChosenLight light = cuts_.numbers_.at(drawn.number);
       light.scale = Rgb(1 / drawn.probability);
       // A light that matters much alone casts its shadow sharply.
-      light.shared = share && drawn.share < kDominant;
+      if (share && drawn.share < kDominant)
+        light.rays = sharing++ % kPilot == 0 ? ChosenLight::Rays::pilot : ChosenLight::Rays::shared;
       chosen_.push_back(light);
     }
     std::stable_sort(
         chosen_.begin(), chosen_.end(), [](const ChosenLight& a, const ChosenLight& b) {
-          return a.lightClass != b.lightClass ? a.lightClass < b.lightClass : a.shared > b.shared;
+          return a.lightClass != b.lightClass ? a.lightClass < b.lightClass : a.rays < b.rays;
         });
   }
 

@@ -11,7 +11,10 @@ struct ChosenLight {
   LightClass lightClass = LightClass::omni;
   size_t index = 0;      // in its class
   Rgb scale = Rgb(1.f);  // of its intensity
-  bool shared = false;   // one shadow ray answers for all receivers of a tile of one strip
+  // Shadow rays: one from each receiver; the same, which shows whether the receivers of the tile
+  // see alike; where they do, one that answers for all. Of tiles of one strip.
+  enum class Rays : uint8_t { own, pilot, shared };
+  Rays rays = Rays::own;
   // In the order in which lights are gathered.
   bool operator<(const ChosenLight& other) const {
     return lightClass != other.lightClass ? lightClass < other.lightClass : index < other.index;
