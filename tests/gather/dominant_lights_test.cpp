@@ -134,6 +134,30 @@ TEST_F(Dominant, ASharpLightIsNotLeftToChance) {
   }
 }
 
+// So near to one receiver that no mean of a cluster's tells of it: still found.
+TEST_F(Dominant, ANearLightOfOneReceiver) {
+  GlossyLight& near = lights_.glossy[77];
+  const size_t lit = 5;
+  const ReceiverPoint& point = receivers_.points[lit];
+  near.p = point.p + 2e-4f * point.frame.n;
+  near.n = near.axis = -point.frame.n;
+  near.sharpness = 1;
+  near.intensity = Rgb(1.f);
+  const std::vector<Rgb> own = of(near);
+  EXPECT_GT(own[lit].x, 100 * own[lit + 1].x);
+  near.intensity *= 1 / own[lit].x;
+  for (GlossyLight& light : lights_.glossy)
+    if (&light != &near) light.intensity *= 1e-3f;
+  settings_.cut.nodes = 16;
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    settings_.seed = seed;
+    const LightCuts cuts(tracer_, lights_, settings_, context_);
+    const Rgb light = lightOf(cuts, receivers_, context_)[lit];
+    EXPECT_GE(light.x, 0.99f) << seed;
+    EXPECT_LE(light.x, 1.5f) << seed;
+  }
+}
+
 TEST_F(Dominant, NothingToLookFor) {
   const std::vector<ClusterTarget> none(3);
   const DominantLights dominant(none, {}, context_);

@@ -132,6 +132,28 @@ TEST_F(GatherPointCuts, SharedRaysChangeVisibilityOnly) {
   expectEqual(apart, some(tracer_, lights_));  // only neighbours share
 }
 
+// An edge right above the floor hides all lights from the receivers on one side of it.
+TEST_F(GatherPointCuts, ReceiversThatSeeUnlikeHaveRaysOfTheirOwn) {
+  Scene edge = randomTriangles(1, 1);
+  edge.meshes[0].positions = {{0, -9, 1e-4f}, {0, 9, 1e-4f}, {-9, 0, 1e-4f}};
+  const Tracer tracer(edge, context_);
+  for (ReceiverPoint& point : receivers_.points) {
+    point.p = {2e-3f * static_cast<float>(point.pixel % kWidth) - 0.0171f,
+               2e-3f * static_cast<float>(point.pixel / kWidth), 0};
+    point.frame = frameFromNormal({0, 0, 1});
+    point.ng = point.frame.n;
+  }
+  lights_ = randomLights(1500, 100.f, 5);
+  settings_.cut.nodes = 2000;
+  const std::vector<Rgb> own = some(tracer, lights_);
+  const uint64_t rays = context_.statistics.count("shadow_rays");
+  settings_.shared = true;
+  EXPECT_LT(relativeError(some(tracer, lights_), own), 0.01);
+  EXPECT_LT(1.5 * static_cast<double>(context_.statistics.count("shadow_rays") - rays),
+            static_cast<double>(rays))
+      << "clusters beside the edge share theirs";
+}
+
 // As filters have.
 TEST_F(GatherPointCuts, WeightsMayBeNegative) {
   settings_.cut.nodes = 50;

@@ -180,6 +180,22 @@ TEST(LightPass, DepthsAreSortedAndLimited) {
   EXPECT_EQ(source.run(settings).size(), 0u);
 }
 
+// Blocks of lights, which are traced together, are small.
+TEST(LightPass, NeighboursInTheArrayAreNeighbours) {
+  LightSource source(glossyScene(0.2f));
+  LightSettings settings;
+  settings.count = 4000;
+  settings.maxDepth = 5;
+  const VirtualLights lights = source.run(settings);
+  const auto meanDistance = [&](size_t step) {
+    double sum = 0;
+    for (size_t i = 0; i + step < lights.diffuse.size(); ++i)
+      sum += static_cast<double>(length(lights.diffuse[i + step].p - lights.diffuse[i].p));
+    return sum / static_cast<double>(lights.diffuse.size() - step);
+  };
+  EXPECT_LT(meanDistance(1), 0.2 * meanDistance(400));
+}
+
 TEST(LightPass, DiffuseOnly) {
   LightSource source(glossyScene(0.2f));
   LightSettings settings;

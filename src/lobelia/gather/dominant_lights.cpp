@@ -181,25 +181,25 @@ class MayReach {
   const float room_;
 };
 
-// Those that a light does reach so, as far as estimates tell.
+// Does a light reach the receivers of a cluster so, as far as estimates tell?
 class Reaches {
  public:
   explicit Reaches(const trees::LightNode& light) : light_(light) {}
 
-  // Bit per receiver.
-  uint32_t operator()(const g::ClusterTarget& cluster) {
+  // The root of the sum of squares over receivers, as cuts are chosen by it.
+  bool operator()(const g::ClusterTarget& cluster) {
     if (!filled_) {
       const trees::LightNode* light = &light_;
       table_.fill({&light, 1}, 1);
       filled_ = true;
     }
-    uint32_t bits = 0;
-    for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
-      const Vf value =
-          nodeImportance(table_.at(lane), cluster.receivers, lane, Vf(kFloor), Vf(1.f), nullptr);
-      bits |= maskBits(value >= Vf(cluster.least)) << lane;
-    }
-    return bits;
+    alignas(64) float values[g::kStrip];
+    for (size_t lane = 0; lane < g::kStrip; lane += kLanes)
+      nodeImportance(table_.at(lane), cluster.receivers, lane, Vf(kFloor), Vf(1.f), nullptr)
+          .store(values + lane);
+    float squares = 0;
+    for (const float value : values) squares += value * value;
+    return std::sqrt(squares) >= cluster.least;
   }
 
  private:
@@ -291,10 +291,10 @@ class Search {
       uint32_t bits = at.bits & mayReach(tree_.levels[0][at.strip], &tree_.strips[at.strip]);
       for (; bits != 0; bits &= bits - 1) {
         ++compared_;
-        const auto& target =
+        const uint32_t cluster =
             tree_.targets[at.strip * g::kStrip + static_cast<uint32_t>(__builtin_ctz(bits))];
-        if (reaches(tree_.clusters[target.cluster]) & target.lanes)
-          reached_.push_back({target.cluster, static_cast<uint32_t>(&light - nodes_.data())});
+        if (reaches(tree_.clusters[cluster]))
+          reached_.push_back({cluster, static_cast<uint32_t>(&light - nodes_.data())});
       }
     }
   }

@@ -1,7 +1,8 @@
 // Lights that may each make much of what a cluster of receivers gets, found from the lights' side.
 // A node of a light tree tells badly of a single light whose lobe is sharp or that is near: drawn
-// too rarely, it flares, or lacks (gather_cuts.h). So every light looks for the clusters that it
-// reaches strongly, by its own lobe, down a tree of the clusters.
+// too rarely, it flares, or lacks (gather_cuts.h). So lights look for the clusters that they reach
+// strongly, down a tree of representatives of the clusters: neighbours together, by what one of
+// them may give at most, and each by its own lobe to every receiver of the clusters that are left.
 //
 // Not in [P000] nor [Yuksel19]: of bounds the first has one per node, which does not tell of the
 // strongest of its lights either.
@@ -21,15 +22,15 @@ namespace lobelia::gather {
 struct ClusterTarget {
   CutReceivers receivers;
   int representatives = 0;  // that tell of them from afar (peaks()); 0: no light counts
-  // What a light has to give one of them to count, as nodeImportance() tells it.
+  // What a light has to give them to count, as estimateNodes() tells it of all receivers.
   float least = 0;
 };
 
 class DominantLights {
  public:
   DominantLights() = default;
-  // clusters: neighbours one after the other. A light counts at a cluster that does for one of its
-  // receivers. The same for any number of threads. Incomplete when cancelled.
+  // clusters: neighbours one after the other. A light counts at a cluster by what it gives each of
+  // its receivers. The same for any number of threads. Incomplete when cancelled.
   DominantLights(const std::vector<ClusterTarget>& clusters,
                  std::span<const trees::LightTree> trees, const Context& context);
 

@@ -23,7 +23,7 @@ uint64_t keyOf(const ReceiverPoint& point, uint64_t seed) {
 
 // Lights are looked for that make this share of a dominant one's, as far as the receivers' means
 // tell.
-constexpr float kCandidateShare = 0.5f;
+constexpr float kCandidateShare = 0.8f;
 // Every so manieth light shows whether a cluster's receivers see alike.
 constexpr size_t kPilot = 16;
 

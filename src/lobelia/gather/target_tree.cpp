@@ -80,7 +80,7 @@ TargetTree::TargetTree(const std::vector<ClusterTarget>& all) : clusters(all) {
       for (int to = lane; to < (lane == 0 ? kStrip : lane + 1); ++to)  // the first fills the others
         setLane(receivers, i, to, &strips.back());
       bounds.push_back(boundOf(receivers, i, cluster.least));
-      targets.push_back({c, ((1u << run) - 1) << i});
+      targets.push_back(c);
     }
   }
   levels.push_back(stripsOf(bounds));

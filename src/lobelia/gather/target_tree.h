@@ -19,12 +19,8 @@ struct TargetTree {
   // It keeps a reference to the clusters.
   explicit TargetTree(const std::vector<ClusterTarget>& all);
 
-  struct Target {
-    uint32_t cluster;
-    uint32_t lanes;  // bit per receiver of the cluster that it stands for
-  };
   const std::vector<ClusterTarget>& clusters;
-  std::vector<Target> targets;
+  std::vector<uint32_t> targets;                // the clusters that they stand for
   std::vector<CutReceivers> strips;             // 16 targets each
   std::vector<std::vector<BoundStrip>> levels;  // [0]: of the strips; the last: a single one
 };
