@@ -21,8 +21,8 @@ uint64_t keyOf(const ReceiverPoint& point, uint64_t seed) {
   return key;
 }
 
-// Lights are looked for that make this share of a dominant one's, as far as the receivers' means
-// tell.
+// Lights are looked for that make this share of a dominant one's: what the receivers get in all is
+// told by few nodes then.
 constexpr float kCandidateShare = 0.8f;
 // Every so manieth light shows whether a cluster's receivers see alike.
 constexpr size_t kPilot = 16;

@@ -6,7 +6,9 @@
 // for the node at every receiver of the cluster, each with its own reflectance. One shadow ray per
 // light, from a receiver drawn among the cluster's, answers for all of them
 // (CutGatherSettings::shared), but for lights that matter much alone and where some lights, whose
-// rays start at every receiver, show that these do not see alike; or every receiver traces its own. Such lights are not left to chance: they are found from their own side (dominant_lights.h).
+// rays start at every receiver, show that these do not see alike; or every receiver traces its own.
+// Lights that matter much are not left to chance: they are found from their own side
+// (dominant_lights.h).
 //
 // Past [P000], whose pairs of light and pixel nodes are refined until upper bounds allow to copy
 // one representative's light to all pixels: what is drawn is unbiased for every receiver, so that
