@@ -5,6 +5,7 @@
 #include "gather/oracle.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/gather/gather.h"
+#include "lobelia/gather/kernels.h"
 
 namespace lobelia {
 namespace {
@@ -295,6 +296,30 @@ TEST_F(GatherAll, EmptyInputIsFine) {
   EXPECT_THROW(
       gatherAll(tracer_, randomReceivers(5, {LobeType::lambert}, 1, 22), {}, {}, {}, context_),
       std::invalid_argument);
+}
+
+// A tile of points of many kinds has more strips than points would fill.
+TEST_F(GatherAll, RaysOfManyStrips) {
+  using namespace gather;
+  const Receivers receivers = randomReceivers(kStrip, {LobeType::lambert}, 1, 3);
+  const VirtualLights lights = randomLights(20, 100.f, 5);
+  LightBlock block;
+  prepare(lights, scene_, LightClass::diffuse, 0, 20, &block);
+  Tile tile = makeTile(receivers, 0, receivers.points.size());
+  ASSERT_EQ(tile.strips.size(), 1u);
+  const auto visible = [&](PairMasks* pairs) {
+    pairs->reset(20, tile.strips.size());
+    std::fill(pairs->bits.begin(), pairs->bits.end(), uint16_t{0xffff});
+    return keepVisible(tile, block, tracer_, pairs);
+  };
+  PairMasks one, many;
+  const size_t rays = visible(&one);
+  EXPECT_GT(rays, 20u);
+  constexpr size_t kStrips = 40;
+  tile.strips.assign(kStrips, PointStrip(tile.strips[0]));
+  EXPECT_EQ(visible(&many), kStrips * rays);
+  for (size_t l = 0; l < 20; ++l)
+    for (size_t s = 0; s < kStrips; ++s) EXPECT_EQ(many.at(l, s), one.at(l, 0)) << l << ' ' << s;
 }
 
 }  // namespace

@@ -45,7 +45,9 @@ BandPlan planBands(const Tracer& tracer, const PixelSet& pixels, int maxDepth, s
                            ? 1
                            : static_cast<double>(pixels.pixels.size()) / (width * film.height);
   const double rows = static_cast<double>(bandPixels) / (width * share);
-  plan.bandRows = std::clamp(static_cast<int>(std::min(rows, 4096.0)) / 8 * 8, 8, 4096);
+  // Layers are kept for as many rows.
+  const int most = std::clamp((film.height + 7) / 8 * 8, 8, 4096);
+  plan.bandRows = std::clamp(static_cast<int>(std::min(rows, 4096.0)) / 8 * 8, 8, most);
   plan.bands = (film.height + plan.bandRows - 1) / plan.bandRows;
   return plan;
 }

@@ -15,8 +15,8 @@
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/base/parallel.h"
-#include "lobelia/gather/gather.h"
 #include "lobelia/builtin/closed_room.h"
+#include "lobelia/gather/gather.h"
 #include "lobelia/lights/light_pass.h"
 
 namespace lobelia::app {
@@ -152,9 +152,11 @@ PointNormal bestSeen(const BareRays& bare, const Receivers& receivers,
                      const std::vector<PointNormal>& lights) {
   PointNormal best = lights.front();
   double most = -1;
-  for (size_t i = 0; i < std::min<size_t>(16, lights.size()); ++i) {
-    const double visible = traceGatherRays(bare, receivers, {lights[i]}).visible;
-    if (visible > most) most = visible, best = lights[i];
+  const size_t some = std::min<size_t>(16, lights.size());
+  for (size_t i = 0; i < some; ++i) {  // neighbours in the array are neighbours in the scene
+    const PointNormal& light = lights[i * lights.size() / some];
+    const double visible = traceGatherRays(bare, receivers, {light}).visible;
+    if (visible > most) most = visible, best = light;
   }
   return best;
 }
@@ -325,8 +327,8 @@ BenchTable pathRates(const std::vector<PathSubject>& subjects, int spp, int turn
       const auto bareRate = [&](const auto& hitsOf) {
         Measured m;
         std::atomic<uint64_t> hits{0};
-        m.seconds =
-            timed([&] { parallelFor(tiles.size(), 1, [&](size_t t) { hits += hitsOf(tiles[t]); }); });
+        m.seconds = timed(
+            [&] { parallelFor(tiles.size(), 1, [&](size_t t) { hits += hitsOf(tiles[t]); }); });
         m.rays = rays;
         return m;
       };
@@ -353,8 +355,10 @@ VirtualLights onlyGlossy(VirtualLights lights) {
   return lights;
 }
 
-std::unique_ptr<RateScene> room(builtin::RoomKind kind, const BenchOptions& options, Context& context) {
-  return std::make_unique<RateScene>(builtin::closedRoom(kind, options.scene.detail), options, context);
+std::unique_ptr<RateScene> room(builtin::RoomKind kind, const BenchOptions& options,
+                                Context& context) {
+  return std::make_unique<RateScene>(builtin::closedRoom(kind, options.scene.detail), options,
+                                     context);
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ class ChosenGather::Agreement {
  public:
   // Bits per receiver: those that a light faces, and those that it reaches.
   void add(uint32_t facing, uint32_t visible) {
+    ++asked_;
     const bool mostly = 2 * __builtin_popcount(visible) >= __builtin_popcount(facing);
     const uint32_t unlike = mostly ? facing & ~visible : visible;
     const uint32_t lit = mostly ? facing : visible;
@@ -72,6 +73,7 @@ class ChosenGather::Agreement {
     }
   }
   bool agree() const {
+    if (asked_ < 2) return false;
     for (int lane = 0; lane < kStrip; ++lane)
       if (unlike_[lane] > 1 &&
           static_cast<float>(unlike_[lane]) > kUnlike * static_cast<float>(lit_[lane]))
@@ -80,8 +82,9 @@ class ChosenGather::Agreement {
   }
 
  private:
-  // Of the lights that most or this one see. One alone tells of nothing.
+  // Of the lights that most or this one see. One light alone tells of nothing.
   static constexpr float kUnlike = 0.2f;
+  uint32_t asked_ = 0;
   uint32_t unlike_[kStrip] = {}, lit_[kStrip] = {};
 };
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/gather/cut_kernels.h"
 #include "lobelia/gather/target_tree.h"
 
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | HWY_SSSE3)
@@ -16,7 +18,7 @@
 
 LOBELIA_CORE_BEGIN
 
-constexpr float kFloor = 0.01f;  // as CutSettings::floor
+constexpr float kFloor = g::CutSettings().floor;
 
 // Directions about an axis, at most so far from it.
 struct Cone {
@@ -136,15 +138,13 @@ class MayReach {
     const auto mostCosine = [&](V3<Vf> axis, Vf along) {
       const Vf c = min(max(dot(axis, d) * along, Vf(-1.f)), Vf(1.f));
       const Vf turned = c * cosine + sqrt(Vf(1.f) - c * c) * sine + Vf(room_);
-      return select((nearest <= Vf(0.f)) | (c >= cosine), Vf(1.f), turned);
+      return select((nearest <= Vf(0.f)) | (c >= cosine), Vf(1.f), min(turned, Vf(1.f)));
     };
     const auto mostCosineOf = [&](const Cone& cone) {
       const Vf c = mostCosine(broadcast(cone.axis), inverse);
       if (!(cone.cosine < 1)) return c;
-      const Vf most = min(c, Vf(1.f));
-      const Vf turned =
-          most * Vf(cone.cosine) + sqrt(Vf(1.f) - most * most) * Vf(cone.sine) + Vf(room_);
-      return select(c >= Vf(cone.cosine), Vf(1.f), turned);
+      const Vf turned = c * Vf(cone.cosine) + sqrt(Vf(1.f) - c * c) * Vf(cone.sine) + Vf(room_);
+      return select(c >= Vf(cone.cosine), Vf(1.f), min(turned, Vf(1.f)));
     };
     const Vf c = mostCosineOf(lights_.normals);
     const Mf faces = c > Vf(0.f);
@@ -154,7 +154,7 @@ class MayReach {
                    exp(Vf(lights_.sharpness) * (mostCosineOf(lights_.axes) - Vf(1.f)));
     const Vf square = nearest * nearest + Vf(lights_.variance);
     const Vf least = Vf::load(strip.least + lane) * square;
-    const Mf enough = faces & (intensity >= least);
+    const Mf enough = faces & (least < Vf(kInfinityF)) & (intensity >= least);
     if (receivers == nullptr || !any(enough)) return enough;
     // As nodeImportance() has it.
     const Vf diffuse = Vf::load(receivers->diffuse + lane);
@@ -289,10 +289,12 @@ class Search {
     for (const Candidates& at : few_) {
       ++compared_;
       uint32_t bits = at.bits & mayReach(tree_.levels[0][at.strip], &tree_.strips[at.strip]);
+      uint32_t last = ~0u;  // of a cluster's representatives, which are neighbours, one will do
       for (; bits != 0; bits &= bits - 1) {
-        ++compared_;
         const uint32_t cluster =
             tree_.targets[at.strip * g::kStrip + static_cast<uint32_t>(__builtin_ctz(bits))];
+        if (std::exchange(last, cluster) == cluster) continue;
+        ++compared_;
         if (reaches(tree_.clusters[cluster]))
           reached_.push_back({cluster, static_cast<uint32_t>(&light - nodes_.data())});
       }
@@ -368,7 +370,7 @@ DominantLights::DominantLights(const std::vector<ClusterTarget>& clusters,
           tree, nodes, std::span(roots).subspan(begin, end - begin), &part.reached);
     });
   }
-  // A light may reach several representatives of a cluster.
+  // Representatives of a cluster may be in two strips.
   for (Part& part : parts) {
     std::sort(part.reached.begin(), part.reached.end());
     part.reached.erase(std::unique(part.reached.begin(), part.reached.end()), part.reached.end());

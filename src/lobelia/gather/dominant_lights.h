@@ -43,8 +43,8 @@ class DominantLights {
   std::span<const Leaf> of(size_t cluster) const {
     return std::span(leaves_).subspan(begins_[cluster], begins_[cluster + 1] - begins_[cluster]);
   }
-  // How many lights count, cluster by cluster, and how many pairs of a light and a representative
-  // or a group of them were compared for it.
+  // How many lights count, cluster by cluster, and how many pairs of lights or groups of them
+  // with representatives, groups of these or receivers were compared for it.
   size_t count() const { return leaves_.size(); }
   uint64_t comparisons() const { return comparisons_; }
 

@@ -80,13 +80,15 @@ class LightCuts::ClusterGather {
   // What was drawn, in the order in which it is gathered.
   void choose(bool share) {
     chosen_.clear();
-    size_t sharing = 0;
+    size_t sharing[std::size(kLightClasses)] = {};
     for (const CutLight& drawn : drawn_) {
       ChosenLight light = cuts_.numbers_.at(drawn.number);
       light.scale = Rgb(1 / drawn.probability);
       // A light that matters much alone casts its shadow sharply.
       if (share && drawn.share < kDominant)
-        light.rays = sharing++ % kPilot == 0 ? ChosenLight::Rays::pilot : ChosenLight::Rays::shared;
+        light.rays = sharing[static_cast<size_t>(light.lightClass)]++ % kPilot == 0
+                         ? ChosenLight::Rays::pilot
+                         : ChosenLight::Rays::shared;
       chosen_.push_back(light);
     }
     std::stable_sort(

@@ -3,7 +3,8 @@
 // Pairs that face each other are compacted into a queue in the order light, strip, lane; whenever
 // 16 rays have gathered they are traced as a packet. Neighbours in it come from neighbouring points
 // and mostly go to one light, which is what makes packets coherent. Where the points of a strip lie
-// further apart than the lights (a few pixels of a picture), the order is strip, lane, light.
+// further apart than the lights (few pixels of a picture, or very many lights), the order is strip,
+// lane, light.
 #if defined(LOBELIA_GATHER_VISIBILITY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_GATHER_VISIBILITY_INL_H_
 #undef LOBELIA_GATHER_VISIBILITY_INL_H_
@@ -143,20 +144,19 @@ class VisiblePairs {
         queue_(tracer, pairs, kInfinite ? 3.4e38f : 1.f) {}
 
   size_t run() {
-    uint32_t wide = 0;  // bit per strip
+    bool wide[g::kMaxTilePoints] = {};  // strip by strip: there are no more than points
     if (!kInfinite) {
       Bounds3f lights;
       for (size_t l = 0; l < lightCount(); ++l) lights.add(block_.lights[l].p);
-      for (size_t s = 0; s < tile_.strips.size(); ++s)
-        wide |= uint32_t{apart(tile_.strips[s], lights)} << s;
+      for (size_t s = 0; s < tile_.strips.size(); ++s) wide[s] = apart(tile_.strips[s], lights);
     }
     for (size_t l = 0; l < lightCount(); ++l)
       for (size_t s = 0; s < tile_.strips.size(); ++s)
-        if (!(wide >> s & 1))
+        if (!wide[s])
           forRays(l, s, [&](size_t lane, Mf mask, V3<Vf> origin, V3<Vf> direction) {
             queue_.push(mask, origin, direction, pairOf(l, s) + static_cast<uint32_t>(lane));
           });
-    if (wide != 0) runWide(wide);
+    if (std::any_of(std::begin(wide), std::end(wide), [](bool w) { return w; })) runWide(wide);
     queue_.flush();
     return queue_.traced();
   }
@@ -169,10 +169,10 @@ class VisiblePairs {
     return static_cast<uint32_t>((l * pairs_.strips + s) * g::kStrip);
   }
 
-  void runWide(uint32_t strips) {
+  void runWide(const bool* wide) {
     StripRays rays;
-    for (; strips != 0; strips &= strips - 1) {
-      const auto s = static_cast<size_t>(__builtin_ctz(strips));
+    for (size_t s = 0; s < tile_.strips.size(); ++s) {
+      if (!wide[s]) continue;
       for (size_t l = 0; l < lightCount(); ++l)
         forRays(l, s, [&](size_t lane, Mf mask, V3<Vf> origin, V3<Vf> direction) {
           rays.put(l, lane, mask, origin, direction);

@@ -153,8 +153,7 @@ void countParticles(const std::vector<ParticleBatch>& batches, Context& context)
   context.statistics.addCount("nonfinite", total.nonFinite);
 }
 
-void collect(const std::vector<ParticleBatch>& batches, const Bounds3f& bounds,
-             VirtualLights* lights, Context& context) {
+void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, Context& context) {
   lights->diffuseDepthEnds = sortByDepth(
       batches, [](const ParticleBatch& b) -> auto& { return b.diffuse; },
       [](const ParticleBatch& b, size_t i) -> size_t { return b.diffuse[i].tag & 0xff; },
@@ -170,10 +169,13 @@ void collect(const std::vector<ParticleBatch>& batches, const Bounds3f& bounds,
       batches, [](const ParticleBatch& b) -> auto& { return b.spherical; },
       [](const ParticleBatch& b, size_t i) -> size_t { return b.spherical[i].depth; },
       &lights->spherical);
+  countParticles(batches, context);
+}
+
+void sortByPlace(const Bounds3f& bounds, VirtualLights* lights) {
   sortByPlace(bounds, lights->diffuseDepthEnds, &lights->diffuse);
   sortByPlace(bounds, lights->glossyDepthEnds, &lights->glossy, &lights->glossyGroups);
   sortByPlace(bounds, lights->sphericalDepthEnds, &lights->spherical);
-  countParticles(batches, context);
 }
 
 // Emitters without an area, as lights of depth 0 (area emitters: ParticleWalk::leaveOnEmitter).
@@ -220,7 +222,8 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   const uint64_t particles = chooseParticleCount(tracer, emitters, settings, context);
   const float scale = static_cast<float>(1.0 / static_cast<double>(particles));
   const ParticleWalk walk(tracer, emitters, settings, lights.seed, kStream, scale);
-  collect(traceParticles(walk, particles, context, true), tracer.bounds(), &lights, context);
+  collect(traceParticles(walk, particles, context, true), &lights, context);
+  sortByPlace(tracer.bounds(), &lights);
   if (!context.cancelled() && !lights.spherical.empty()) {
     chooseRadii(tracer, settings, &lights, context);
     coverSurfaces(tracer, &lights, context);

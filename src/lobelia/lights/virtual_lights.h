@@ -77,8 +77,9 @@ struct SphereShading {
   float nearField = 0;
 };
 
-// Lights of one class are sorted by depth: depthEnds[d] is the number of lights with depth <= d,
-// where depth is the number of edges between the emitter and the light (0: on the emitter itself).
+// Lights of one class are sorted by depth, and those of a depth, unless an older file has them,
+// along a Morton curve: depthEnds[d] is the number of lights with depth <= d, where depth is the
+// number of edges between the emitter and the light (0: on the emitter itself).
 struct VirtualLights {
   std::string model;  // "vpl", "glossy", "vsl", "richvpl"
   std::vector<OmniLight> omni;
