@@ -3,6 +3,7 @@
 
 #include "gather/mrcs_input.h"
 #include "gather/spherical_setup.h"
+#include "lobelia/lights/light_order.h"
 
 namespace lobelia {
 namespace {
@@ -74,7 +75,7 @@ TEST_F(NearFieldTest, BothPartsAreTheWhole) {
       const std::vector<Rgb> whole = gather(floor_.lights());
       const std::vector<Rgb> far = gather(reaching(floor_.lights(), Reach::farField, radii));
       VirtualLights lights = reaching(floor_.lights(), Reach::nearField, radii);
-      sortByPlace(&lights);
+      sortByPlace(floor_.tracer().bounds(), &lights);
       const std::vector<Rgb> near = gather(lights);
       for (size_t i = 0; i < whole.size(); ++i)
         for (int c = 0; c < 3; ++c)
@@ -92,7 +93,7 @@ TEST_F(NearFieldTest, BothPartsAreTheWhole) {
 
 TEST_F(NearFieldTest, SortingKeepsDepthsAndLights) {
   VirtualLights lights = floor_.lights();
-  sortByPlace(&lights);
+  sortByPlace(floor_.tracer().bounds(), &lights);
   ASSERT_EQ(lights.spherical.size(), static_cast<size_t>(kLights));
   double power = 0, before = 0;
   Bounds3f first, all;
@@ -114,7 +115,7 @@ TEST_F(NearFieldTest, RepresentativesBeyondItAreUnbiasedAndLessNoisy) {
   constexpr float kRadii = 4;
   const std::vector<Rgb> all = gather(floor_.lights());
   VirtualLights nearLights = reaching(floor_.lights(), Reach::nearField, kRadii);
-  sortByPlace(&nearLights);
+  sortByPlace(floor_.tracer().bounds(), &nearLights);
   const std::vector<Rgb> near = gather(nearLights);
   MrcsSettings settings;
   settings.columns = 60;

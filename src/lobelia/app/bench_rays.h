@@ -23,7 +23,8 @@ using Packets = std::vector<ShadowPacket>;
 Packets randomToRandom(const std::vector<PointNormal>& places, size_t packets, uint64_t seed);
 // One point after another to the lights along a Morton curve.
 Packets pointToSorted(std::vector<PointNormal> places, size_t packets, uint64_t seed);
-// Receivers in their order to a few lights, one by one, as gatherAll() traces them.
+// Receivers in their order to a few lights, one by one, as gatherAll() traces them where lights lie
+// further apart than neighbouring receivers (gather/visibility-inl.h).
 Packets tileToLights(std::span<const ReceiverPoint> tile, std::span<const PointNormal> lights);
 
 // The rays of path tracing width x height pixels of a camera, tile by tile in the order in which

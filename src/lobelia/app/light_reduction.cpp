@@ -52,7 +52,6 @@ VirtualLights nearLights(VirtualLights lights) {
   lights.omniGroups = {}, lights.directionalGroups = {}, lights.glossyGroups = {};
   lights.diffuseDepthEnds = {}, lights.glossyDepthEnds = {};
   lights.sphereShading.reach = SphereShading::Reach::nearField;
-  gather::sortByPlace(&lights);
   return lights;
 }
 

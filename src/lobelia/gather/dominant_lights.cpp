@@ -368,12 +368,10 @@ DominantLights::DominantLights(const std::vector<ClusterTarget>& clusters,
       Part& part = parts[first + begin / kGrain];
       part.comparisons = HWY_DYNAMIC_DISPATCH(lobelia::findReached)(
           tree, nodes, std::span(roots).subspan(begin, end - begin), &part.reached);
+      // Representatives of a cluster may be in two strips.
+      std::sort(part.reached.begin(), part.reached.end());
+      part.reached.erase(std::unique(part.reached.begin(), part.reached.end()), part.reached.end());
     });
-  }
-  // Representatives of a cluster may be in two strips.
-  for (Part& part : parts) {
-    std::sort(part.reached.begin(), part.reached.end());
-    part.reached.erase(std::unique(part.reached.begin(), part.reached.end()), part.reached.end());
   }
   for (const Part& part : parts) comparisons_ += part.comparisons;
   for (const Part& part : parts)

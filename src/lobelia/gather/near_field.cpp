@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "lobelia/base/morton.h"
 #include "lobelia/gather/light_block.h"
 
 namespace lobelia::gather {
@@ -19,8 +17,8 @@ bool meet(const Bounds3f& a, const Bounds3f& b) {
 // A little more than the near field: rounding must not lose a pair.
 Bounds3f nearBounds(const SphericalLight& light, const SphereShading& shading) {
   const float reach = 1.00001f * std::sqrt(reachOf(shading, light.radius).to);
-  const float slack = 4e-7f * std::max({std::abs(light.p.x), std::abs(light.p.y),
-                                        std::abs(light.p.z)});
+  const float slack =
+      4e-7f * std::max({std::abs(light.p.x), std::abs(light.p.y), std::abs(light.p.z)});
   Bounds3f bounds;
   bounds.add(light.p - Vec3f(reach + slack));
   bounds.add(light.p + Vec3f(reach + slack));
@@ -40,27 +38,6 @@ SquaredRange reachOf(const SphereShading& shading, float radius) {
       break;
   }
   return {};
-}
-
-void sortByPlace(VirtualLights* lights) {
-  std::vector<SphericalLight>& all = lights->spherical;
-  Bounds3f box;
-  for (const SphericalLight& light : all) box.add(light.p);
-  const Vec3f extent = max(box.extent(), Vec3f(1e-30f));
-  size_t begin = 0;
-  std::vector<size_t> ends(lights->sphericalDepthEnds.begin(), lights->sphericalDepthEnds.end());
-  ends.push_back(all.size());
-  for (const size_t end : ends) {
-    std::vector<std::pair<uint32_t, uint32_t>> order;  // by code, then as they were
-    for (size_t i = begin; i < end; ++i)
-      order.emplace_back(morton((all[i].p - box.lo) / extent), static_cast<uint32_t>(i));
-    std::sort(order.begin(), order.end());
-    std::vector<SphericalLight> sorted;
-    sorted.reserve(order.size());
-    for (const auto& [code, i] : order) sorted.push_back(all[i]);
-    std::copy(sorted.begin(), sorted.end(), all.begin() + static_cast<ptrdiff_t>(begin));
-    begin = std::max(begin, end);
-  }
 }
 
 NearField::NearField(const VirtualLights& lights, size_t first)

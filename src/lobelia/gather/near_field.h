@@ -22,9 +22,6 @@ struct SquaredRange {
 };
 SquaredRange reachOf(const SphereShading& shading, float radius);
 
-// Sorts spherical lights of one depth by their place, so that neighbours share blocks.
-void sortByPlace(VirtualLights* lights);
-
 // Bounds of the near fields of all runs of kBlockLights spherical lights, to skip blocks none of
 // whose lights is near a tile.
 class NearField {

@@ -10,8 +10,8 @@
 #include <atomic>
 #include <utility>
 
-#include "lobelia/base/morton.h"
 #include "lobelia/base/parallel.h"
+#include "lobelia/lights/light_order.h"
 #include "lobelia/lights/particle_walk.h"
 #include "lobelia/lights/spherical_coverage.h"
 #include "lobelia/lights/spherical_radius.h"
@@ -113,34 +113,6 @@ std::vector<uint32_t> sortByDepth(const std::vector<ParticleBatch>& batches, con
   return ends;
 }
 
-// Lights of a class as sortByDepth() leaves them, in each depth along a Morton curve: neighbours in
-// the array are neighbours in the scene, so that shadow rays to a block of them are coherent. Takes
-// what is parallel to the lights along.
-template <class Light, class... Parallel>
-void sortByPlace(const Bounds3f& bounds, const std::vector<uint32_t>& ends,
-                 std::vector<Light>* lights, Parallel*... parallel) {
-  const float scale = 1 / std::max(maxComponent(bounds.extent()), 1e-30f);
-  size_t begin = 0;
-  for (const uint32_t end : ends) {
-    std::vector<uint64_t> keys(end - begin);
-    parallelFor(keys.size(), 4096, [&](size_t i) {
-      const size_t light = begin + i;
-      keys[i] = uint64_t{morton(((*lights)[light].p - bounds.lo) * scale)} << 32 | light;
-    });
-    parallelSort(&keys);
-    const auto permute = [&](auto* values) {
-      const std::decay_t<decltype(*values)> old(values->begin() + static_cast<ptrdiff_t>(begin),
-                                                values->begin() + end);
-      parallelFor(keys.size(), 4096, [&](size_t i) {
-        (*values)[begin + i] = old[static_cast<uint32_t>(keys[i]) - begin];
-      });
-    };
-    permute(lights);
-    (permute(parallel), ...);
-    begin = end;
-  }
-}
-
 void countParticles(const std::vector<ParticleBatch>& batches, Context& context) {
   ParticleBatch total;
   for (const ParticleBatch& b : batches) {
@@ -170,12 +142,6 @@ void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, C
       [](const ParticleBatch& b, size_t i) -> size_t { return b.spherical[i].depth; },
       &lights->spherical);
   countParticles(batches, context);
-}
-
-void sortByPlace(const Bounds3f& bounds, VirtualLights* lights) {
-  sortByPlace(bounds, lights->diffuseDepthEnds, &lights->diffuse);
-  sortByPlace(bounds, lights->glossyDepthEnds, &lights->glossy, &lights->glossyGroups);
-  sortByPlace(bounds, lights->sphericalDepthEnds, &lights->spherical);
 }
 
 // Emitters without an area, as lights of depth 0 (area emitters: ParticleWalk::leaveOnEmitter).

@@ -1,0 +1,14 @@
+// The order of virtual lights within a depth.
+#pragma once
+
+#include "lobelia/lights/virtual_lights.h"
+
+namespace lobelia {
+
+// Puts the lights of each class, which are sorted by depth, in each depth along a Morton curve:
+// neighbours in the array are neighbours in the scene, so that shadow rays to a block of lights are
+// coherent and the near fields of a block lie together. Their groups go along. bounds: of the
+// scene.
+void sortByPlace(const Bounds3f& bounds, VirtualLights* lights);
+
+}  // namespace lobelia
