@@ -258,7 +258,7 @@ TEST(BenchSglc, TableLayersBoundsAndFloors) {
 
 TEST(BenchSglc, CurvesAndGrowth) {
   const TemporaryFolder folder;
-  const std::string arguments = "sglc --figures 8,9" + kTinySglc;
+  const std::string arguments = "sglc --figures 8,9a,9b" + kTinySglc;
   const json result = runBench(arguments + "-o " + folder.path());
   for (const char* method : {"sglc, unbiased", "sglc, paper"}) {
     const std::vector<json> points = rowsOf(result["figure8"], "method", method);
@@ -270,9 +270,36 @@ TEST(BenchSglc, CurvesAndGrowth) {
   for (const json& row : rowsOf(result["figure9"], "method", "every light"))
     EXPECT_NEAR(number(row, "rays"), 1, 0.15) << row;
   EXPECT_EQ(rowsOf(result["figure9_lights"], "method", "sglc, paper").size(), 3u);
-  EXPECT_EQ(rowsOf(result["figure9_pixels"], "method", "sglc, paper").size(), 3u);
+  EXPECT_EQ(rowsOf(result["figure9_pixels"], "method", "sglc, paper").size(), 4u);
+  // At the error of the whole, which has it at its defaults.
+  for (const char* table : {"figure9_lights", "figure9_pixels"}) {
+    const json equal = rowsOf(result[table], "method", "sglc, shared, equal l2").back(),
+               whole = rowsOf(result[table], "method", "sglc, shared").back();
+    EXPECT_EQ(number(equal, "l2"), number(whole, "l2")) << table;
+    EXPECT_NEAR(number(equal, "rays_per_pixel"), number(whole, "rays_per_pixel"), 1e-3) << table;
+  }
   for (const char* name : {"figure8-study-ggx-time.svg", "figure9_lights-study-ggx.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+}
+
+TEST(BenchSglc, FramesOfTheMethodsAskedFor) {
+  const TemporaryFolder folder;
+  const json result = runBench("sglc --figures table2,frames --methods sglc-unbiased" + kTinySglc +
+                               "-o " + folder.path());
+  EXPECT_EQ(result["table2"].size(), 3u) << "shared, unbiased, every light: " << result["table2"];
+  const json& frames = result["frames"];
+  ASSERT_EQ(frames.size(), 25u) << "and their means";
+  const json& mean = frames.back();
+  EXPECT_GT(number(mean, "change_every_light"), 0);
+  EXPECT_LT(number(mean, "l2"), 0.1);
+  // Errors add up to what changes.
+  EXPECT_LT(number(mean, "change_of_error"), 2.1 * number(mean, "l2"));
+  EXPECT_NEAR(number(mean, "change"), number(mean, "change_every_light"),
+              number(mean, "change_of_error"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "frames-study-ggx-default-change.png"));
+  EXPECT_NE(runProgram("bench sglc --methods sglc,lightcuts").err.find("lightslice"),
+            std::string::npos)
+      << "names what there is";
 }
 
 }  // namespace

@@ -30,6 +30,10 @@ TEST_F(CutsRender, LargerCutsComeNearerToAllLights) {
     EXPECT_GT(stats["seconds"]["traverse"], 0);
   }
   EXPECT_LT(before, 0.05);
+  EXPECT_FALSE(statistics("1600")["gather"].contains("clusters_missing_error"));
+  const Film aimed = render(base + "--gather sglc --error 0.1", "aimed");
+  EXPECT_LT(compare(aimed, all).l2, 0.2);
+  EXPECT_LE(statistics("aimed")["gather"]["clusters_missing_error"], 0.1);
 }
 
 TEST_F(CutsRender, SharedRaysAreFew) {
@@ -108,6 +112,8 @@ TEST_F(CutsRender, WrongUseSaysWhatWouldBeRight) {
   expectError("--gather sglc --sglc-mode shared --sglc-share radiance", "--sglc-mode paper");
   expectError("--gather sglc --sglc-mode paper --cut-size 9", "--sglc-mode shared or unbiased");
   expectError("--gather sglc --sglc-mode paper --bound tight", "conservative");
+  expectError("--gather sglc --sglc-mode paper --error 0.1", "--sglc-mode shared or unbiased");
+  expectError("--gather lightcuts --error 0.1", "--gather mrcs, sglc");
   expectError("--cut-size 10", "--gather sglc");
   expectError("--gather mrcs --sglc-mode shared", "--gather sglc");
   expectError("--gather sglc --sglc-mode papr", "shared");

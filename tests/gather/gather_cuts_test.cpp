@@ -29,6 +29,22 @@ class GatherCuts : public testing::Test {
     const LightCuts cuts(tracer, lights, settings_, context_);
     return lightOf(cuts, receivers_, context_, parts, pixel);
   }
+  // Of more lights than most have, each for itself: with rays of each receiver, or shared ones.
+  struct Traced {
+    std::vector<Rgb> light;
+    uint64_t rays;
+  };
+  Traced traced(const Tracer& tracer, bool shared) {
+    settings_.cut.nodes = 2000;
+    settings_.shared = shared;
+    const uint64_t before = context_.statistics.count("shadow_rays");
+    std::vector<Rgb> light = some(tracer, manyLights_);
+    return {std::move(light), context_.statistics.count("shadow_rays") - before};
+  }
+  void face(ReceiverPoint* point, Vec3f n) {
+    point->frame = frameFromNormal(n);
+    point->ng = point->frame.n;
+  }
   void expectUnbiased(const Tracer& tracer, const VirtualLights& lights, int draws,
                       const std::vector<Rgb>& all) {
     test::expectUnbiased(all, draws, [&](uint64_t draw) {
@@ -40,6 +56,7 @@ class GatherCuts : public testing::Test {
   Receivers receivers_ =
       randomReceivers(static_cast<size_t>(kWidth * kHeight),
                       {LobeType::lambert, LobeType::phong, LobeType::ward}, 1, 3);
+  const VirtualLights manyLights_ = randomLights(1500, 100.f, 5);
   CutGatherSettings settings_;
   Context context_;
 };
@@ -92,6 +109,35 @@ TEST_F(GatherPointCuts, MeanOverSeedsIsTheLightOfAll) {
   expectUnbiased(tracer_, lights_, 200, all(tracer_, lights_));
 }
 
+TEST_F(GatherPointCuts, CutsEndByTheErrorAskedFor) {
+  settings_.cut.nodes = 1000;
+  const std::vector<Rgb> exact = all(tracer_, manyLights_);
+  uint64_t lights = 0, missing = 0;  // so far
+  const auto gathered = [&](float error, uint64_t* used, uint64_t* missed) {
+    settings_.cut.error = error;
+    const double e = relativeError(some(tracer_, manyLights_), exact);
+    *used = context_.statistics.count("cut_lights") - lights;
+    *missed = context_.statistics.count("clusters_missing_error") - missing;
+    lights += *used, missing += *missed;
+    return e;
+  };
+  uint64_t whole, coarse, fine, unmet;
+  gathered(0, &whole, &unmet);
+  EXPECT_EQ(unmet, 0u) << "none asked for";
+  const double loose = gathered(0.6f, &coarse, &unmet);
+  EXPECT_EQ(unmet, 0u);
+  const double tight = gathered(0.2f, &fine, &unmet);
+  EXPECT_LT(coarse, fine);
+  EXPECT_LT(fine, whole);
+  EXPECT_LT(tight, loose);
+  uint64_t most;
+  gathered(1e-4f, &most, &unmet);
+  EXPECT_EQ(most, whole) << "all nodes that there may be";
+  EXPECT_GT(unmet, 0u);
+  settings_.cut.error = 1;
+  expectUnbiased(tracer_, lights_, 300, all(tracer_, lights_));
+}
+
 TEST_F(GatherPointCuts, EveryClassAlone) {
   settings_.cut.nodes = 40;
   settings_.gather.clamp = 3;
@@ -115,21 +161,14 @@ TEST_F(GatherPointCuts, SharedRaysChangeVisibilityOnly) {
   // A small patch of floor and of wall.
   for (ReceiverPoint& point : receivers_.points) {
     point.p *= 0.001f;
-    point.frame = frameFromNormal(point.pixel % 2 == 1 ? Vec3f{1, 0, 0} : Vec3f{0, 0, 1});
-    point.ng = point.frame.n;
+    face(&point, point.pixel % 2 == 1 ? Vec3f{1, 0, 0} : Vec3f{0, 0, 1});
   }
-  lights_ = randomLights(1500, 100.f, 5);
-  settings_.cut.nodes = 2000;
-  const std::vector<Rgb> own = some(open, lights_);
-  const uint64_t rays = context_.statistics.count("shadow_rays");
-  settings_.shared = true;
-  expectEqual(some(open, lights_), own);  // nothing hides anything
-  EXPECT_LT(2 * (context_.statistics.count("shadow_rays") - rays), rays) << "by one of many";
-  EXPECT_NE(some(tracer_, lights_), own);
+  const Traced own = traced(open, false), shared = traced(open, true);
+  expectEqual(shared.light, own.light);  // nothing hides anything
+  EXPECT_LT(2 * shared.rays, own.rays) << "by one of many";
+  EXPECT_NE(traced(tracer_, true).light, own.light);
   for (ReceiverPoint& point : receivers_.points) point.pixel *= 100 * kWidth;
-  const std::vector<Rgb> apart = some(tracer_, lights_);
-  settings_.shared = false;
-  expectEqual(apart, some(tracer_, lights_));  // only neighbours share
+  expectEqual(traced(tracer_, true).light, traced(tracer_, false).light);  // only neighbours share
 }
 
 // An edge right above the floor hides all lights from the receivers on one side of it.
@@ -140,18 +179,11 @@ TEST_F(GatherPointCuts, ReceiversThatSeeUnlikeHaveRaysOfTheirOwn) {
   for (ReceiverPoint& point : receivers_.points) {
     point.p = {2e-3f * static_cast<float>(point.pixel % kWidth) - 0.0171f,
                2e-3f * static_cast<float>(point.pixel / kWidth), 0};
-    point.frame = frameFromNormal({0, 0, 1});
-    point.ng = point.frame.n;
+    face(&point, {0, 0, 1});
   }
-  lights_ = randomLights(1500, 100.f, 5);
-  settings_.cut.nodes = 2000;
-  const std::vector<Rgb> own = some(tracer, lights_);
-  const uint64_t rays = context_.statistics.count("shadow_rays");
-  settings_.shared = true;
-  EXPECT_LT(relativeError(some(tracer, lights_), own), 0.01);
-  EXPECT_LT(1.5 * static_cast<double>(context_.statistics.count("shadow_rays") - rays),
-            static_cast<double>(rays))
-      << "clusters beside the edge share theirs";
+  const Traced own = traced(tracer, false), shared = traced(tracer, true);
+  EXPECT_LT(relativeError(shared.light, own.light), 0.01);
+  EXPECT_LT(3 * shared.rays, 2 * own.rays) << "clusters beside the edge share theirs";
 }
 
 // As filters have.

@@ -67,6 +67,8 @@ void requireOptions(const Study& study, const BenchOptions& options) {
     throw UsageError(
         fmt::format("bench {} has no use for --rows or --columns; vsl has", options.name));
   }
+  if (options.name != "sglc" && !options.methods.empty())
+    throw UsageError(fmt::format("bench {} has no use for --methods; sglc has", options.name));
   if (study.figures != nullptr) return;
   if (options.scenes.size() > 1) {
     throw UsageError(
@@ -118,6 +120,11 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
   c.add_option("--figures", o.figures, "vsl, sglc: figures of the paper; default: all")
       ->type_name("LIST")
       ->check(offered(figureNames()));
+  c.add_option("--methods", o.methods,
+               "sglc: only these methods, and mode shared, in table 2, figures 8 and 9 and the "
+               "floors; default: all")
+      ->type_name("LIST")
+      ->check(offered(sglcMethodKeys()));
   c.add_option("--json", o.json, "Write the tables as JSON")->type_name("FILE");
   c.add_option("-D,--define", o.scene.definitions, "name=value for a scene's $name")
       ->type_name("NAME=VALUE")

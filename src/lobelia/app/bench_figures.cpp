@@ -26,18 +26,21 @@ std::string gallery(const std::vector<FigurePicture>& line) {
 
 }  // namespace
 
-std::set<std::string> chosenFigures(const std::string& list, std::span<const std::string> known) {
+std::set<std::string> chosenOf(const std::string& option, const std::string& list,
+                               std::span<const std::string> known) {
   if (list.empty()) return {known.begin(), known.end()};
-  std::set<std::string> figures;
+  std::set<std::string> chosen;
   std::istringstream in(list + ",");
-  for (std::string figure; std::getline(in, figure, ',');) {
-    if (std::find(known.begin(), known.end(), figure) == known.end()) {
-      throw UsageError(fmt::format("--figures '{}': figures are separated by commas; there are {}",
-                                   list, fmt::join(known, ", ")));
+  for (std::string name; std::getline(in, name, ',');) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw UsageError(
+          fmt::format("{} '{}': '{}' is none of the names, separated by commas; "
+                      "there are {}",
+                      option, list, name, fmt::join(known, ", ")));
     }
-    figures.insert(figure);
+    chosen.insert(name);
   }
-  return figures;
+  return chosen;
 }
 
 FigureReport::FigureReport(std::string folder, std::string page, std::string title)

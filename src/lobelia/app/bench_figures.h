@@ -12,8 +12,10 @@
 
 namespace lobelia::app {
 
-// Of a list with commas; "": all. Throws UsageError for what is not known.
-std::set<std::string> chosenFigures(const std::string& list, std::span<const std::string> known);
+// Of a list with commas, as `option` ("--figures") has it; "": all. Throws UsageError for what is
+// not known.
+std::set<std::string> chosenOf(const std::string& option, const std::string& list,
+                               std::span<const std::string> known);
 
 struct FigurePicture {
   std::string caption, file;  // the file within the folder

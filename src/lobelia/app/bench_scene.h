@@ -66,6 +66,8 @@ class BenchScene {
   size_t pixelCount() const;
   size_t pictureCount() const;  // pixels of the whole
   const Camera& camera() const { return camera_; }
+  // Another view with a film of the same size: the same pixels are compared.
+  void setCamera(const Camera& camera) { camera_ = camera; }
   const Tracer& tracer() const { return tracer_; }
 
  private:

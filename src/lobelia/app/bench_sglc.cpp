@@ -14,7 +14,8 @@ constexpr const char* kSecondView = "second";
 
 SglcSettings settingsOf(const BenchOptions& options) {
   SglcSettings settings;
-  settings.figures = chosenFigures(options.figures, sglcFigures());
+  settings.figures = chosenOf("--figures", options.figures, sglcFigures());
+  settings.methods = chosenOf("--methods", options.methods, sglcMethodKeys());
   settings.folder = options.output;
   if (options.lightCount > 0) settings.lights = options.lightCount;
   return settings;
@@ -25,16 +26,20 @@ void figuresOf(const std::string& name, bool kitchens, const BenchOptions& optio
                const SglcSettings& settings, FigureReport& report, Context& context) {
   const SglcView view{name, "", "", settings.lights};
   const bool ofView = settings.has("table2") || settings.hasLayers() || settings.has("6") ||
-                      settings.has("7") || settings.has("floors");
-  if (ofView || (kitchens && settings.has("9"))) {
+                      settings.has("7") || settings.has("floors") || settings.has("frames");
+  const bool growth = settings.has("9a") || settings.has("9b");
+  if (ofView || (kitchens && growth)) {
     SglcScene scene(options, settings, view, context);
     if (settings.has("table2") && !context.cancelled()) sglcTable(scene, report, context);
     if (settings.hasLayers() && !context.cancelled()) sglcLayers(scene, report, context);
     if ((settings.has("6") || settings.has("7")) && !context.cancelled())
       sglcBounds(scene, report, context);
     if (settings.has("floors") && !context.cancelled()) sglcFloors(scene, report, context);
-    if (kitchens && settings.has("9") && !context.cancelled())
-      sglcGrowth(options, scene, report, context);
+    if (kitchens && settings.has("9a") && !context.cancelled())
+      sglcLightGrowth(options, scene, report, context);
+    if (kitchens && settings.has("9b") && !context.cancelled())
+      sglcPixelGrowth(options, scene, report, context);
+    if (settings.has("frames") && !context.cancelled()) sglcFrames(scene, report, context);
   }
   if (kitchens && settings.has("8") && !context.cancelled()) {
     SglcView second = view;
@@ -47,7 +52,8 @@ void figuresOf(const std::string& name, bool kitchens, const BenchOptions& optio
 }  // namespace
 
 const std::vector<std::string>& sglcFigures() {
-  static const std::vector<std::string> figures{"table2", "4", "5", "6", "7", "8", "9", "floors"};
+  static const std::vector<std::string> figures{"table2", "4",  "5",  "6",      "7",
+                                                "8",      "9a", "9b", "floors", "frames"};
   return figures;
 }
 

@@ -1,5 +1,5 @@
 // What the files of the study `sglc` share: table 2 and figures 4 to 9 of [P000], for every gather
-// strategy that there is, on any scenes.
+// strategy that there is (or for --methods), on any scenes.
 //
 //  bench_sglc.cpp          options, scenes, figures: the study itself
 //  bench_sglc_scene.cpp    a scene with its lights, its reference and what is measured against it
@@ -7,7 +7,8 @@
 //  bench_sglc_table.cpp    table 2
 //  bench_sglc_layers.cpp   figures 4 and 5: light by pairing, cost of pixels
 //  bench_sglc_curves.cpp   figures 6 and 7 (conservative and approximate bounds) and 8 (equal time)
-//  bench_sglc_growth.cpp   figure 9: growth with lights and pixels
+//  bench_sglc_growth.cpp   figure 9: growth with lights (9a) and pixels (9b)
+//  bench_sglc_frames.cpp   frames of a camera that moves: how the error changes between them
 //  bench_sglc_floors.cpp   what a gather would take at the bare rates of its parts
 //
 // Deviations from the paper: all of a picture's light is that of virtual lights, as there, but the
@@ -27,8 +28,8 @@
 namespace lobelia::app {
 
 struct SglcSettings {
-  std::set<std::string> figures;
-  std::string folder;  // of pictures; empty: numbers alone
+  std::set<std::string> figures, methods;  // by name and key
+  std::string folder;                      // of pictures; empty: numbers alone
   uint64_t lights = 100'000;
   bool has(const char* figure) const { return figures.contains(figure); }
   bool hasLayers() const { return has("4") || has("5"); }
@@ -46,8 +47,9 @@ struct SglcQuality {
   void (*set)(RenderOptions&, double);
 };
 
-// All strategies but brute force, sglc by its modes, and --lights richvpl by its forms.
-std::vector<SglcMethod> sglcMethods();
+// All strategies but brute force, sglc by its modes, and --lights richvpl by its forms; those of
+// them that the study is to have.
+std::vector<SglcMethod> sglcMethods(const SglcSettings& settings);
 SglcMethod defaultMethod();
 SglcMethod conservative(SglcMethod paper);               // sglc in mode paper by E_c
 SglcMethod withLayers(SglcMethod method);                // by pairing, and rays of pixels
@@ -98,11 +100,12 @@ class SglcScene {
   const VirtualLights& lights();
   ToneCurve toneCurve();  // of the default's picture
   bool referenceIsWhole() const { return scene_.pixelCount() == scene_.pictureCount(); }
+  // Options of the study's lights and receivers as a method gathers them.
+  BenchScene::Change changeOf(const SglcMethod& method) const;
   void progress(const std::string& what) const;
   std::string description() const;  // for notes
 
  private:
-  BenchScene::Change changeOf(const SglcMethod& method) const;
   SglcOutcome measure(const SglcMethod& method, BenchScene::Extent extent);
 
   SglcSettings settings_;
@@ -121,7 +124,10 @@ void sglcLayers(SglcScene& scene, FigureReport& report, Context& context);
 void sglcBounds(SglcScene& scene, FigureReport& report, Context& context);
 void sglcFloors(SglcScene& scene, FigureReport& report, Context& context);
 void sglcEqualTime(SglcScene& scene, FigureReport& report, Context& context);
-void sglcGrowth(const BenchOptions& options, SglcScene& scene, FigureReport& report,
-                Context& context);
+void sglcLightGrowth(const BenchOptions& options, SglcScene& scene, FigureReport& report,
+                     Context& context);
+void sglcPixelGrowth(const BenchOptions& options, SglcScene& scene, FigureReport& report,
+                     Context& context);
+void sglcFrames(SglcScene& scene, FigureReport& report, Context& context);
 
 }  // namespace lobelia::app

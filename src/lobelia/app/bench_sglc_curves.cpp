@@ -92,7 +92,7 @@ double visitedOf(const SglcOutcome& o) { return o.visitedOrNone(); }
 // The strategies' points, each a row.
 std::vector<Series> qualitySeries(SglcScene& scene, BenchTable* table, Context& context) {
   std::vector<Series> all;
-  for (const SglcMethod& method : sglcMethods()) {
+  for (const SglcMethod& method : sglcMethods(scene.settings())) {
     Series series{method, {}};
     const auto add = [&](const SglcMethod& point, const std::string& option, BenchCell value) {
       const SglcOutcome& outcome = scene.outcome(point);

@@ -229,6 +229,8 @@ double boundsPerSecond(const Tracer& tracer, const VirtualLights& lights,
   });
 }
 
+bool isPaper(const SglcMethod& method) { return method.key == approximateMethod().key; }
+
 BenchTable emptyTable() {
   return {
       "floors",
@@ -256,7 +258,7 @@ BenchTable emptyTable() {
 void sglcFloors(SglcScene& scene, FigureReport& report, Context& context) {
   std::vector<const SglcOutcome*> outcomes;
   std::vector<SglcMethod> methods;
-  for (const SglcMethod& method : sglcMethods()) {
+  for (const SglcMethod& method : sglcMethods(scene.settings())) {
     if (!method.key.starts_with("sglc")) continue;
     methods.push_back(method);
     outcomes.push_back(&scene.outcome(method));
@@ -270,14 +272,15 @@ void sglcFloors(SglcScene& scene, FigureReport& report, Context& context) {
                         scene.scene().camera().cropX1 - scene.scene().camera().cropX0);
   const BareRays bare(tracer.scene(), context);
   const double rays = samples.rays(bare), shadings = samples.shadings(),
-               bounds = boundsPerSecond(tracer, scene.lights(), receivers, settings),
                estimates = samples.estimates();
+  const bool hasPaper = std::any_of(methods.begin(), methods.end(), isPaper);
+  const double bounds =
+      hasPaper ? boundsPerSecond(tracer, scene.lights(), receivers, settings) : kNone;
   BenchTable& table = report.table(emptyTable());
   for (size_t i = 0; i < methods.size(); ++i) {
     const SglcOutcome& o = *outcomes[i];
-    const bool paper = methods[i].key == approximateMethod().key;
     const double ray = o.rays / rays, shading = o.shaded / shadings,
-                 visits = paper ? bounds : estimates, visit = o.visited / visits;
+                 visits = isPaper(methods[i]) ? bounds : estimates, visit = o.visited / visits;
     table.rows.push_back({scene.stem(), methods[i].label, 1e-6 * rays, 1e-6 * shadings,
                           1e-6 * visits, ray, shading, visit, o.seconds,
                           o.seconds / (ray + shading + visit)});

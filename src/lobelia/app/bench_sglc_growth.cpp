@@ -1,6 +1,6 @@
 // Figure 9 [P000]: how time and rays of gathering grow with lights and with pixels, at every
-// strategy's defaults, with the error beside; and brute force, extrapolated from the pixels
-// compared.
+// strategy's defaults, with the error beside; of the default also at one error; and brute force,
+// extrapolated from the pixels compared.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,9 +14,11 @@ namespace lobelia::app {
 namespace {
 
 constexpr double kFirstLights = 10'000, kLightFactor = 3.16227766;
-constexpr int kCoarsest = 4;    // pictures begin at this part of the side asked for
+constexpr int kCoarsest = 8;    // pictures begin at this part of the side asked for
 constexpr int kSideFactor = 2;  // between them
 constexpr const char* kNaive = "every light";
+constexpr int kMostSteps = 3;      // of quality, to reach an error
+constexpr double kStepFactor = 2;  // of a step
 
 struct Grown {  // a method's points
   std::string label;
@@ -25,19 +27,25 @@ struct Grown {  // a method's points
 
 class Growth {
  public:
-  Growth(std::string key, std::string title, std::string label, FigureReport& report)
-      : key_(std::move(key)), label_(std::move(label)), report_(report) {
+  // asked: what grows as far as asked for; its error is that of the default at equal error.
+  Growth(std::string key, std::string title, std::string label, SglcScene& asked,
+         FigureReport& report)
+      : key_(std::move(key)),
+        label_(std::move(label)),
+        report_(report),
+        error_(asked.outcome(defaultMethod()).error.l2) {
     table().title = std::move(title);
   }
 
   void add(SglcScene& scene, double x, Context& context) {
-    for (const SglcMethod& method : sglcMethods()) {
+    for (const SglcMethod& method : sglcMethods(scene.settings())) {
       const SglcOutcome& o = scene.outcome(method);
       if (context.cancelled()) return;
       table().rows.push_back({scene.stem(), method.label, x, o.seconds, o.per(o.rays),
                               o.visitedOrNone(), o.error.l2, o.error.meanRatio});
       addPoint(method.label, x, o.seconds, o.rays);
     }
+    addEqual(scene, x, context);
     const SglcOutcome& all = scene.reference();
     if (context.cancelled()) return;
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -73,6 +81,35 @@ class Growth {
   }
 
  private:
+  // The default at the error of what is asked for: between the qualities on both sides of it.
+  void addEqual(SglcScene& scene, double x, Context& context) {
+    const SglcMethod method = defaultMethod();
+    const SglcQuality& quality = *qualityOf(method);
+    std::vector<std::pair<double, double>> seconds, rays, visited;  // by error
+    double value = quality.normal;
+    bool above = false, below = false;
+    for (int step = 0; step <= kMostSteps && !(above && below); ++step) {
+      const SglcOutcome& o = scene.outcome(withQuality(method, quality, value));
+      if (context.cancelled()) return;
+      for (const auto& [curve, y] : {std::pair{&seconds, o.seconds}, std::pair{&rays, o.rays},
+                                     std::pair{&visited, o.visited}})
+        curve->emplace_back(o.error.l2, y);
+      above = above || o.error.l2 >= error_, below = below || o.error.l2 <= error_;
+      value *= o.error.l2 > error_ ? kStepFactor : 1 / kStepFactor;
+    }
+    const auto at = [&](std::vector<std::pair<double, double>>& curve) {
+      std::sort(curve.begin(), curve.end());
+      return interpolated(curve, error_);
+    };
+    const std::string label = method.label + ", equal l2";
+    const double time = at(seconds), allRays = at(rays), all = at(visited);
+    const double count = static_cast<double>(scene.scene().pictureCount());
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    table().rows.push_back({scene.stem(), label, x, time, allRays / count, all / count,
+                            std::isfinite(time) ? error_ : kNone, kNone});
+    if (std::isfinite(time)) addPoint(label, x, time, allRays);
+  }
+
   BenchTable& table() {
     return report_.table({key_,
                           "",
@@ -86,7 +123,8 @@ class Growth {
                            {"mean_ratio", "mean ratio", "{:.4f}"}},
                           {},
                           {"Seconds of whole pictures; of every light extrapolated from the pixels "
-                           "compared."}});
+                           "compared. Equal l2: that of the default for all that is asked for, "
+                           "between two cut sizes interpolated in logarithms."}});
   }
   void addPoint(const std::string& label, double x, double seconds, double rays) {
     auto found = std::find_if(grown_.begin(), grown_.end(),
@@ -98,6 +136,7 @@ class Growth {
 
   std::string key_, label_;
   FigureReport& report_;
+  double error_;
   std::vector<Grown> grown_;
 };
 
@@ -114,9 +153,9 @@ std::vector<uint64_t> lightCounts(uint64_t most) {
 
 }  // namespace
 
-void sglcGrowth(const BenchOptions& options, SglcScene& scene, FigureReport& report,
-                Context& context) {
-  Growth lights("figure9_lights", "Figure 9: growth with lights", "lights", report);
+void sglcLightGrowth(const BenchOptions& options, SglcScene& scene, FigureReport& report,
+                     Context& context) {
+  Growth lights("figure9_lights", "Figure 9a: growth with lights", "lights", scene, report);
   for (const uint64_t count : lightCounts(scene.view().lights)) {
     if (count == scene.view().lights) {
       lights.add(scene, static_cast<double>(scene.lights().size()), context);
@@ -130,8 +169,11 @@ void sglcGrowth(const BenchOptions& options, SglcScene& scene, FigureReport& rep
     if (context.cancelled()) return;
   }
   lights.finish(scene.stem());
+}
 
-  Growth pixels("figure9_pixels", "Figure 9: growth with pixels", "pixels", report);
+void sglcPixelGrowth(const BenchOptions& options, SglcScene& scene, FigureReport& report,
+                     Context& context) {
+  Growth pixels("figure9_pixels", "Figure 9b: growth with pixels", "pixels", scene, report);
   const Camera& camera = scene.scene().camera();
   for (int divisor = kCoarsest; divisor >= 1; divisor /= kSideFactor) {
     if (divisor == 1) {

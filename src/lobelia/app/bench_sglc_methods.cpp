@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lobelia/app/bench_sglc.h"
+#include "lobelia/app/bench_studies.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/gather/gather_cuts.h"
 #include "lobelia/gather/gather_pairs.h"
@@ -82,9 +83,7 @@ bool gathersGlossyLights(const std::string& strategy) {
   });
 }
 
-}  // namespace
-
-std::vector<SglcMethod> sglcMethods() {
+std::vector<SglcMethod> allMethods() {
   std::vector<SglcMethod> methods;
   for (const GatherStrategy& strategy : gatherStrategies()) {
     if (strategy.name == "all" || !gathersGlossyLights(strategy.name)) continue;
@@ -98,6 +97,25 @@ std::vector<SglcMethod> sglcMethods() {
     }
   }
   for (const char* form : {"cube", "vmf"}) methods.push_back(byRadiance(form));
+  return methods;
+}
+
+}  // namespace
+
+const std::vector<std::string>& sglcMethodKeys() {
+  static const std::vector<std::string> keys = [] {
+    std::vector<std::string> all;
+    for (const SglcMethod& method : allMethods()) all.push_back(method.key);
+    return all;
+  }();
+  return keys;
+}
+
+std::vector<SglcMethod> sglcMethods(const SglcSettings& settings) {
+  std::vector<SglcMethod> methods = allMethods();
+  std::erase_if(methods, [&](const SglcMethod& method) {
+    return method.key != defaultMethod().key && !settings.methods.contains(method.key);
+  });
   return methods;
 }
 

@@ -119,7 +119,7 @@ void sglcTable(SglcScene& scene, FigureReport& report, Context& context) {
         {method.label, report.picture(fmt::format("table2-{}-{}", scene.stem(), method.key),
                                       scene.outcome(method).film, scene.toneCurve())});
   };
-  for (const SglcMethod& method : sglcMethods()) {
+  for (const SglcMethod& method : sglcMethods(scene.settings())) {
     const bool asInThePaper = method.key == approximateMethod().key;
     add(method, asInThePaper && paper ? paper->approximateRays : kNone,
         asInThePaper && paper ? paper->approximateSeconds : kNone);

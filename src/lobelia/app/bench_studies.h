@@ -17,6 +17,7 @@ std::vector<BenchTable> benchConvergence(const BenchOptions& options, Context& c
 const std::vector<std::string>& vslFigures();  // what --figures may name
 std::vector<BenchTable> benchVsl(const BenchOptions& options, Context& context);
 const std::vector<std::string>& sglcFigures();
+const std::vector<std::string>& sglcMethodKeys();  // what --methods may name
 std::vector<BenchTable> benchSglc(const BenchOptions& options, Context& context);
 
 }  // namespace lobelia::app

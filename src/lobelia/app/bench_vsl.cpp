@@ -11,7 +11,7 @@ const std::vector<std::string> kScenes = {"kitchen-stove", "hall", "tableau-ward
 
 VslSettings settingsOf(const BenchOptions& options) {
   VslSettings s;
-  s.figures = chosenFigures(options.figures, vslFigures());
+  s.figures = chosenOf("--figures", options.figures, vslFigures());
   s.folder = options.output;
   if (options.lightCount > 0) s.lights = options.lightCount;
   if (options.columns > 0) s.columns = options.columns;

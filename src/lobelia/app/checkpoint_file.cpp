@@ -146,7 +146,10 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
   }
   if (o.gather == "sglc") {
     s.emplace_back("--sglc-mode", cutModeOf(o));
-    if (!gathersPairs(o)) s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));
+    if (!gathersPairs(o)) {
+      s.emplace_back("--cut-size", std::to_string(cutSizeOf(o)));
+      s.emplace_back("--error", fmt::format("{}", o.error));
+    }
   }
   if (gathersPairs(o)) {
     s.emplace_back("--threshold", fmt::format("{}", thresholdOf(o)));

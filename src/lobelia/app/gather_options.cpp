@@ -19,6 +19,9 @@
 namespace lobelia::app {
 namespace {
 
+// Of a cut that ends by --error.
+constexpr size_t kMostNodesByError = 16384;
+
 void requireMode(const RenderOptions& options) {
   if (options.gather != "sglc") return;
   const std::string mode = cutModeOf(options);
@@ -27,7 +30,10 @@ void requireMode(const RenderOptions& options) {
       throw UsageError(fmt::format("{} is for --sglc-mode {}; --sglc-mode {} has no use for it",
                                    name, modes, mode));
   };
-  if (mode == "paper") return require("--cut-size", options.cutSize > 0, "shared or unbiased");
+  if (mode == "paper") {
+    require("--cut-size", options.cutSize > 0, "shared or unbiased");
+    return require("--error", options.error > 0, "shared or unbiased");
+  }
   require("--threshold", options.threshold >= 0, "paper");
   require("--bound", !options.bound.empty(), "paper");
   require("--sglc-bounds", !options.boundForm.empty(), "paper");
@@ -71,7 +77,7 @@ void requireGather(const RenderOptions& options) {
         Owned{"--sketch", {"mrcs"}, !options.sketch.empty()},
         Owned{"--column-scale", {"mrcs"}, options.columnScale != "scalar"},
         Owned{"--near-field", {"mrcs"}, options.nearField >= 0},
-        Owned{"--error", {"mrcs"}, options.error > 0},
+        Owned{"--error", {"mrcs", "sglc"}, options.error > 0},
         Owned{"--sglc-mode", {"sglc"}, !options.cutMode.empty()},
         Owned{"--cut-size", {"sglc", "lightcuts", "mdlc", "stochastic"}, options.cutSize > 0},
         Owned{"--threshold",
@@ -113,6 +119,7 @@ size_t cutSizeOf(const RenderOptions& options) {
   if (options.gather == "lightcuts") return gather::LightcutsSettings().cutSize;
   if (options.gather == "mdlc") return gather::MultidimensionalSettings().cutSize;
   if (options.gather == "stochastic") return gather::StochasticSettings().cutSize;
+  if (options.error > 0) return kMostNodesByError;
   return gather::CutSettings().nodes;
 }
 

@@ -1,5 +1,7 @@
 #include "lobelia/app/light_gather.h"
 
+#include <cmath>
+
 #include "lobelia/app/gather_options.h"
 #include "lobelia/app/receiver_sample.h"
 #include "lobelia/base/random.h"
@@ -19,11 +21,14 @@ constexpr uint64_t kStream = 0x73676c63;  // of everything random here
 
 using Prepared = std::unique_ptr<gather::PreparedGather>;
 
-gather::CutGatherSettings cutSettings(const RenderOptions& options, const GatherSettings& common,
+gather::CutGatherSettings cutSettings(const RenderOptions& options, const BandPlan& plan,
                                       const Camera& camera) {
   gather::CutGatherSettings settings;
-  settings.gather = common;
+  settings.gather = plan.gather;
   settings.cut.nodes = cutSizeOf(options);
+  // The picture is the mean of samples whose lights are drawn one by one.
+  settings.cut.error =
+      static_cast<float>(options.error * std::sqrt(static_cast<double>(plan.eye.sampleCount)));
   settings.shared = cutModeOf(options) == "shared";
   settings.width = camera.cropX1 - camera.cropX0;
   return settings;
@@ -127,8 +132,8 @@ LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, c
       return prepareTrees<gather::LightPairs>(tracer, lights, pairSettings(options, settings_), own,
                                               context);
     if (options.gather == "sglc")
-      return prepareTrees<gather::LightCuts>(tracer, lights,
-                                             cutSettings(options, settings_, camera), own, context);
+      return prepareTrees<gather::LightCuts>(tracer, lights, cutSettings(options, plan, camera),
+                                             own, context);
     if (options.gather == "lightcuts")
       return prepareTrees<gather::Lightcuts>(
           tracer, lights, boundedCutSettings<gather::LightcutsSettings>(options, settings_), own,

@@ -132,7 +132,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 20));
   c.add_option("--error", o.error,
-               "--gather mrcs: relative error aimed at in the gathered light, 0.01 = 1 %")
+               "--gather mrcs, sglc: relative error aimed at in the gathered light, 0.01 = 1 %")
       ->type_name("R")
       ->check(finiteNumber(0, 1, false));
   c.add_option("--sketch", o.sketch,
@@ -219,7 +219,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->check(integerRange(1, 256));
   c.add_option(
        "--cut-size", o.cutSize,
-       "--gather sglc: nodes of a cluster's cut, at most; default: 1024. "
+       "--gather sglc: nodes of a cluster's cut, at most; default: 1024, with --error 16384. "
        "lightcuts, stochastic: nodes of a receiver's cut, at most; default: 1000, 256. mdlc: "
        "pairs of nodes of a pixel's, at most; default: 8000")
       ->type_name("N")

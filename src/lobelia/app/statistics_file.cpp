@@ -105,6 +105,11 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
     json["gather"]["columns"] = sliceColumnsOf(options);
   }
   if (gathers && hasCutSize(options)) json["gather"]["cut_size"] = cutSizeOf(options);
+  if (options.gather == "sglc" && options.error > 0 && gathers) {
+    json["gather"]["clusters_missing_error"] =
+        ratio(static_cast<double>(s.count("clusters_missing_error")),
+              static_cast<double>(s.count("receiver_clusters")));
+  }
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
   json["seconds"] = secondsJson(s);
   json["counts"] = {{"shadow_rays", s.count("shadow_rays")},

@@ -19,7 +19,7 @@ void GatherTally::noteBad(uint32_t pixel) {
 void GatherTally::add(const GatherTally& o) {
   rays += o.rays, pairs += o.pairs, nonfinite += o.nonfinite, evaluations += o.evaluations;
   clusters += o.clusters, clusteredReceivers += o.clusteredReceivers;
-  lights += o.lights, clusteredLights += o.clusteredLights;
+  lights += o.lights, clusteredLights += o.clusteredLights, missed += o.missed;
   traverseNs += o.traverseNs, visibilityNs += o.visibilityNs, shadeNs += o.shadeNs;
   if (o.firstBad) noteBad(*o.firstBad);
 }
@@ -35,6 +35,7 @@ void GatherTally::book(Context& context) const {
   s.addCount("receiver_clusters", clusters);
   s.addCount("clustered_receivers", clusteredReceivers);
   s.addCount("clustered_lights", clusteredLights);
+  s.addCount("clusters_missing_error", missed);
   s.addSeconds("traverse", static_cast<double>(traverseNs) * toSeconds);
   s.addSeconds("visibility", static_cast<double>(visibilityNs) * toSeconds);
   s.addSeconds("shade", static_cast<double>(shadeNs) * toSeconds);

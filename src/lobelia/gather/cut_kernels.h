@@ -14,6 +14,9 @@ namespace lobelia::gather {
 
 struct CutSettings {
   size_t nodes = 1024;  // of a cluster's cut, at most
+  // Relative error aimed at in what a cluster gets: the cut ends where the estimated standard
+  // deviation says so; 0: it has as many nodes as it may.
+  float error = 0;
   // The estimate of a node's contribution has at least this share for either end of what it would
   // be at the peak of that end's lobes (the node's are merged ones): where shapes are told wrongly,
   // what is drawn too rarely flares.
@@ -39,6 +42,7 @@ struct CutScratch {
   };
   std::vector<Dominant> strongest;
   std::vector<DominantLights::Leaf> dominant;
+  bool missed = false;  // CutSettings::error, as the cut had all the nodes it may have
 };
 
 // A light that makes at least this share of what a cluster gets is not left to chance.

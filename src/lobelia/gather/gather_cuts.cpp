@@ -24,7 +24,7 @@ uint64_t keyOf(const ReceiverPoint& point, uint64_t seed) {
 // Lights are looked for that make this share of a dominant one's: what the receivers get in all is
 // told by few nodes then.
 constexpr float kCandidateShare = 0.8f;
-// Every so manieth light shows whether a cluster's receivers see alike.
+// One light of so many of a class shows whether a cluster's receivers see alike.
 constexpr size_t kPilot = 16;
 
 }  // namespace
@@ -65,6 +65,7 @@ class LightCuts::ClusterGather {
     tally->lights += chosen_.size();
     tally->clusteredLights += cuts_.numbers_.count();
     ++tally->clusters;
+    if (cuts_.settings_.cut.error > 0 && scratch_.missed) ++tally->missed;
     tally->clusteredReceivers += cluster.end - cluster.begin;
     tally->traverseNs += nanosecondsNow() - start;
     gather_.add(tile, chosen_, radiance, tally, seed);
