@@ -57,6 +57,21 @@ bool face(const PointNormal& a, const PointNormal& b) {
   return dot(a.n, b.p - a.p) > 0 && dot(b.n, a.p - b.p) > 0;
 }
 
+// Shadow rays of pairs that face each other; those that fill no packet are left out.
+struct FullPackets {
+  Packets packets;
+  ShadowPacket packet{};
+  int filled = 0;
+
+  void add(const ReceiverPoint& point, const PointNormal& light) {
+    const Vec3f to = light.p - point.p;
+    if (dot(light.n, to) >= 0 || dot(point.frame.n, to) <= 0) return;
+    packet.set(filled, offsetOrigin(point.p, point.ng, point.error, to), light.p);
+    packet.tMax[filled] = 1;
+    if (++filled == ShadowPacket::kSize) packets.push_back(packet), filled = 0;
+  }
+};
+
 }  // namespace
 
 std::vector<PointNormal> places(const VirtualLights& lights) {
@@ -124,19 +139,18 @@ Packets pointToSorted(std::vector<PointNormal> places, size_t packets, uint64_t 
 }
 
 Packets tileToLights(std::span<const ReceiverPoint> tile, std::span<const PointNormal> lights) {
-  Packets packets;
-  ShadowPacket packet{};
-  int filled = 0;
-  for (const PointNormal& light : lights) {
-    for (const ReceiverPoint& point : tile) {
-      const Vec3f to = light.p - point.p;
-      if (dot(light.n, to) >= 0 || dot(point.frame.n, to) <= 0) continue;
-      packet.set(filled, offsetOrigin(point.p, point.ng, point.error, to), light.p);
-      packet.tMax[filled] = 1;
-      if (++filled == ShadowPacket::kSize) packets.push_back(packet), filled = 0;
-    }
-  }
-  return packets;
+  FullPackets rays;
+  for (const PointNormal& light : lights)
+    for (const ReceiverPoint& point : tile) rays.add(point, light);
+  return rays.packets;
+}
+
+Packets oneToEachLight(std::span<const ReceiverPoint> tile, std::span<const PointNormal> lights,
+                       uint64_t seed) {
+  FullPackets rays;
+  Rng rng(seed);
+  for (const PointNormal& light : lights) rays.add(tile[rng.nextUint() % tile.size()], light);
+  return rays.packets;
 }
 
 std::vector<TracedRays> recordPathRays(const Tracer& tracer, const EmitterSampler& emitters,

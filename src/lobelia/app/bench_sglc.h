@@ -63,7 +63,7 @@ struct SglcOutcome {
   VirtualLightReport report;
   double pixels = 0;
   double seconds = 0, trees = 0, traverse = 0, visibility = 0, shade = 0;
-  double rays = 0, visited = 0, shaded = 0, cutNodes = 0;  // of the picture
+  double rays = 0, sharedRays = 0, visited = 0, shaded = 0, cutNodes = 0;  // of the picture
   double lightsPerNode = 0, receiversPerNode = 0;
   Comparison error;  // against the reference, at its pixels
   double per(double count) const { return count / pixels; }

@@ -87,6 +87,7 @@ SglcOutcome SglcScene::measure(const SglcMethod& method, BenchScene::Extent exte
   outcome.visibility = spent.seconds("visibility");
   outcome.shade = spent.seconds("shade");
   outcome.rays = spent.count("shadow_rays");
+  outcome.sharedRays = spent.count("shared_rays");
   outcome.visited = spent.count("node_pairs_visited");
   outcome.shaded = spent.count("node_pairs_shaded");
   outcome.cutNodes = spent.count("cut_lights");

@@ -17,7 +17,8 @@ void GatherTally::noteBad(uint32_t pixel) {
 }
 
 void GatherTally::add(const GatherTally& o) {
-  rays += o.rays, pairs += o.pairs, nonfinite += o.nonfinite, evaluations += o.evaluations;
+  rays += o.rays, sharedRays += o.sharedRays, pairs += o.pairs, nonfinite += o.nonfinite,
+      evaluations += o.evaluations;
   clusters += o.clusters, clusteredReceivers += o.clusteredReceivers;
   lights += o.lights, clusteredLights += o.clusteredLights, missed += o.missed;
   traverseNs += o.traverseNs, visibilityNs += o.visibilityNs, shadeNs += o.shadeNs;
@@ -28,6 +29,7 @@ void GatherTally::book(Context& context) const {
   const double toSeconds = 1e-9 / threadCount();
   Statistics& s = context.statistics;
   s.addCount("shadow_rays", rays);
+  s.addCount("shared_rays", sharedRays);
   s.addCount("node_pairs_visited", evaluations);
   s.addCount("node_pairs_shaded", pairs);
   s.addCount("nonfinite", nonfinite);
@@ -154,9 +156,11 @@ void ChosenGather::addBlock(const Tile& tile, std::span<const ChosenLight> chose
     keepFacing(tile, block_, &pairs_);
     for (size_t i = 0; i < chosen.size(); ++i) facing[i] = pairs_.at(i, 0);
   }
-  tally->rays += rays == ChosenLight::Rays::shared && agreement->agree()
-                     ? keepVisibleByOne(tile, block_, tracer_, own, &pairs_)
-                     : keepVisible(tile, block_, tracer_, &pairs_);
+  const bool byOne = rays == ChosenLight::Rays::shared && agreement->agree();
+  const size_t rayCount = byOne ? keepVisibleByOne(tile, block_, tracer_, own, &pairs_)
+                                : keepVisible(tile, block_, tracer_, &pairs_);
+  tally->rays += rayCount;
+  if (byOne) tally->sharedRays += rayCount;
   if (rays == ChosenLight::Rays::pilot)
     for (size_t i = 0; i < chosen.size(); ++i) agreement->add(facing[i], pairs_.at(i, 0));
   const int64_t traced = nanosecondsNow();

@@ -15,6 +15,7 @@ namespace lobelia::gather {
 // What a thread counts while it gathers.
 struct GatherTally {
   uint64_t rays = 0, pairs = 0, nonfinite = 0;
+  uint64_t sharedRays = 0;   // of these rays, that answer for a cluster
   uint64_t evaluations = 0;  // of nodes' bounds or estimates
   // Clusters of receivers that share lights, their receivers, what they gather of what there is.
   uint64_t clusters = 0, clusteredReceivers = 0, lights = 0, clusteredLights = 0;
@@ -24,8 +25,9 @@ struct GatherTally {
 
   void add(const GatherTally& other);
   void noteBad(uint32_t pixel);
-  // Counts "shadow_rays", "node_pairs_visited", "node_pairs_shaded", "nonfinite" and what
-  // pixels_per_pixel_node and its like are made of; books "traverse", "visibility" and "shade".
+  // Counts "shadow_rays", "shared_rays", "node_pairs_visited", "node_pairs_shaded", "nonfinite" and
+  // what pixels_per_pixel_node and its like are made of; books "traverse", "visibility" and
+  // "shade".
   void book(Context& context) const;
 };
 

@@ -18,7 +18,7 @@ size_t keepVisibleByOne(const Tile& tile, const LightBlock& block, const Tracer&
     for (; skip > 0; --skip) rest &= rest - 1;
     pairs->at(l, 0) = static_cast<uint16_t>(rest & (~rest + 1));
   }
-  const size_t rays = keepVisible(tile, block, tracer, pairs);
+  const size_t rays = keepVisible(tile, block, tracer, pairs, false);
   for (size_t l = 0; l < count; ++l)
     if (pairs->at(l, 0) != 0) pairs->at(l, 0) = facing[l];
   return rays;

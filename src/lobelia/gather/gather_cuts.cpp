@@ -92,10 +92,12 @@ class LightCuts::ClusterGather {
                          : ChosenLight::Rays::shared;
       chosen_.push_back(light);
     }
-    std::stable_sort(
-        chosen_.begin(), chosen_.end(), [](const ChosenLight& a, const ChosenLight& b) {
-          return a.lightClass != b.lightClass ? a.lightClass < b.lightClass : a.rays < b.rays;
-        });
+    std::stable_sort(chosen_.begin(), chosen_.end(),
+                     [](const ChosenLight& a, const ChosenLight& b) {
+                       if (a.lightClass != b.lightClass) return a.lightClass < b.lightClass;
+                       if (a.rays != b.rays) return a.rays < b.rays;
+                       return a.index < b.index;
+                     });
   }
 
   const LightCuts& cuts_;

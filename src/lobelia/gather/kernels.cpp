@@ -20,9 +20,9 @@
 LOBELIA_CORE_BEGIN
 
 size_t keepVisible(const g::Tile& tile, const g::LightBlock& block, const Tracer& tracer,
-                   g::PairMasks* pairs) {
+                   g::PairMasks* pairs, bool coherent) {
   return byClass(block.lightClass, [&](auto c) {
-    return keepVisibleOf<decltype(c)::value>(tile, block, tracer, pairs);
+    return keepVisibleOf<decltype(c)::value>(tile, block, tracer, pairs, coherent);
   });
 }
 
@@ -55,8 +55,8 @@ HWY_EXPORT(shadePairs);
 namespace lobelia::gather {
 
 size_t keepVisible(const Tile& tile, const LightBlock& block, const Tracer& tracer,
-                   PairMasks* pairs) {
-  return HWY_DYNAMIC_DISPATCH(lobelia::keepVisible)(tile, block, tracer, pairs);
+                   PairMasks* pairs, bool coherent) {
+  return HWY_DYNAMIC_DISPATCH(lobelia::keepVisible)(tile, block, tracer, pairs, coherent);
 }
 
 void shade(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,

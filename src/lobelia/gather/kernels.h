@@ -23,9 +23,10 @@ struct PairMasks {
 };
 
 // Keeps of the pairs those that face each other (no factor but visibility is zero) and that nothing
-// stands between. Returns the number of rays traced.
+// stands between. coherent: of most lights or most receivers there are several pairs. Returns the
+// number of rays traced.
 size_t keepVisible(const Tile& tile, const LightBlock& block, const Tracer& tracer,
-                   PairMasks* pairs);
+                   PairMasks* pairs, bool coherent = true);
 
 // Sums over a tile's points, [strip][lane].
 struct TileSums {

@@ -24,8 +24,8 @@ LOBELIA_CORE_BEGIN
 
 class RayQueue {
  public:
-  RayQueue(const Tracer& tracer, g::PairMasks* visible, float tMax)
-      : tracer_(tracer), visible_(visible), tMax_(tMax) {}
+  RayQueue(const Tracer& tracer, g::PairMasks* visible, float tMax, bool coherent)
+      : tracer_(tracer), visible_(visible), tMax_(tMax), coherent_(coherent) {}
 
   // Appends the lanes of `mask`. firstPair: number of lane 0's pair, (light * strips + strip) * 16
   // + lane.
@@ -74,7 +74,7 @@ class RayQueue {
       packet.tMax[i] = tMax_;
       packet.active[i] = i < count ? -1 : 0;
     }
-    uint32_t bits = tracer_.visible(packet, true);
+    uint32_t bits = tracer_.visible(packet, coherent_);
     traced_ += count;
     for (; bits != 0; bits &= bits - 1) {
       const size_t pair = static_cast<size_t>(pair_[__builtin_ctz(bits)]);
@@ -94,7 +94,8 @@ class RayQueue {
   size_t count_ = 0;
   const Tracer& tracer_;
   g::PairMasks* visible_;
-  float tMax_;
+  const float tMax_;
+  const bool coherent_;
   size_t traced_ = 0;
 };
 
@@ -136,12 +137,12 @@ template <g::LightClass kClass>
 class VisiblePairs {
  public:
   VisiblePairs(const g::Tile& tile, const g::LightBlock& block, const Tracer& tracer,
-               g::PairMasks* pairs)
+               g::PairMasks* pairs, bool coherent)
       : tile_(tile),
         block_(block),
         pairs_(*pairs),
         // Ends of rays are off the lights' surfaces already.
-        queue_(tracer, pairs, kInfinite ? 3.4e38f : 1.f) {}
+        queue_(tracer, pairs, kInfinite ? 3.4e38f : 1.f, coherent) {}
 
   size_t run() {
     bool wide[g::kMaxTilePoints] = {};  // strip by strip: there are no more than points
@@ -218,8 +219,8 @@ class VisiblePairs {
 
 template <g::LightClass kClass>
 size_t keepVisibleOf(const g::Tile& tile, const g::LightBlock& block, const Tracer& tracer,
-                     g::PairMasks* pairs) {
-  return VisiblePairs<kClass>(tile, block, tracer, pairs).run();
+                     g::PairMasks* pairs, bool coherent) {
+  return VisiblePairs<kClass>(tile, block, tracer, pairs, coherent).run();
 }
 
 LOBELIA_CORE_END
