@@ -33,6 +33,17 @@ TEST_F(CutsRender, LargerCutsComeNearerToAllLights) {
   EXPECT_FALSE(statistics("1600")["gather"].contains("clusters_missing_error"));
   const Film aimed = render(base + "--gather sglc --error 0.1", "aimed");
   EXPECT_LT(compare(aimed, all).l2, 0.2);
+  const auto nodes = [&](const char* name) {
+    return statistics(name)["counts"]["cut_nodes_per_pixel"].get<double>();
+  };
+  EXPECT_LT(2 * nodes("aimed"), nodes("1600"));
+  // Four samples may each have twice the error.
+  const std::string coarse =
+      "--lights vsl --size 64x48 --num-lights 6000 --component indirect --seed 2 --passes 1 "
+      "--gather sglc ";
+  render(coarse + "--spp 1 --error 0.2", "one");
+  render(coarse + "--spp 4 --error 0.1", "four");
+  EXPECT_NEAR(nodes("four") / 4, nodes("one"), 0.1 * nodes("one"));
   EXPECT_LE(statistics("aimed")["gather"]["clusters_missing_error"], 0.1);
 }
 

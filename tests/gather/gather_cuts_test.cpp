@@ -113,11 +113,12 @@ TEST_F(GatherPointCuts, CutsEndByTheErrorAskedFor) {
   settings_.cut.nodes = 1000;
   const std::vector<Rgb> exact = all(tracer_, manyLights_);
   uint64_t lights = 0, missing = 0;  // so far
+  const VirtualLights* of = &manyLights_;
   const auto gathered = [&](float error, uint64_t* used, uint64_t* missed) {
     settings_.cut.error = error;
-    const double e = relativeError(some(tracer_, manyLights_), exact);
+    const double e = relativeError(some(tracer_, *of), exact);
     *used = context_.statistics.count("cut_lights") - lights;
-    *missed = context_.statistics.count("clusters_missing_error") - missing;
+    *missed = context_.statistics.count("error_missed") - missing;
     lights += *used, missing += *missed;
     return e;
   };
@@ -134,7 +135,11 @@ TEST_F(GatherPointCuts, CutsEndByTheErrorAskedFor) {
   gathered(1e-4f, &most, &unmet);
   EXPECT_EQ(most, whole) << "all nodes that there may be";
   EXPECT_GT(unmet, 0u);
-  settings_.cut.error = 1;
+  of = &lights_;
+  settings_.cut.nodes = 200;
+  gathered(0, &whole, &unmet);
+  gathered(1, &coarse, &unmet);
+  EXPECT_LT(coarse, whole);
   expectUnbiased(tracer_, lights_, 300, all(tracer_, lights_));
 }
 

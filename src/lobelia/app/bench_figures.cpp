@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "lobelia/app/frame_setup.h"
+#include "lobelia/base/error.h"
 #include "lobelia/base/file.h"
 #include "lobelia/io/image_io.h"
 
@@ -33,10 +34,9 @@ std::set<std::string> chosenOf(const std::string& option, const std::string& lis
   std::istringstream in(list + ",");
   for (std::string name; std::getline(in, name, ',');) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw UsageError(
-          fmt::format("{} '{}': '{}' is none of the names, separated by commas; "
-                      "there are {}",
-                      option, list, name, fmt::join(known, ", ")));
+      throw UsageError(fmt::format(
+          "{} '{}': there is no '{}'{}; there are {} (a list has commas)", option, list, name,
+          suggestion(name, {known.begin(), known.end()}), fmt::join(known, ", ")));
     }
     chosen.insert(name);
   }

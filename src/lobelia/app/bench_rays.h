@@ -26,8 +26,8 @@ Packets pointToSorted(std::vector<PointNormal> places, size_t packets, uint64_t 
 // Receivers in their order to a few lights, one by one, as gatherAll() traces them where lights lie
 // further apart than neighbouring receivers (gather/visibility-inl.h).
 Packets tileToLights(std::span<const ReceiverPoint> tile, std::span<const PointNormal> lights);
-// One receiver to each light, another one every time, as shared stochastic cuts trace rays that
-// answer for a cluster (gather/chosen_gather.h).
+// To each light from a receiver drawn at random, as shared stochastic cuts trace rays that answer
+// for a cluster (gather/chosen_gather.h); pairs that do not face each other are left out.
 Packets oneToEachLight(std::span<const ReceiverPoint> tile, std::span<const PointNormal> lights,
                        uint64_t seed);
 

@@ -50,6 +50,7 @@ struct SglcQuality {
 // All strategies but brute force, sglc by its modes, and --lights richvpl by its forms; those of
 // them that the study is to have.
 std::vector<SglcMethod> sglcMethods(const SglcSettings& settings);
+SglcMethod everyLight();  // brute force
 SglcMethod defaultMethod();
 SglcMethod conservative(SglcMethod paper);               // sglc in mode paper by E_c
 SglcMethod withLayers(SglcMethod method);                // by pairing, and rays of pixels

@@ -3,7 +3,10 @@
 // of nodes (mode paper) or the estimates of nodes (the other modes) by their kernel alone. Rays and
 // pairs are those of sampled clusters of neighbouring receivers and of lights drawn for each by its
 // cut: a ray from every receiver of a cluster to one light after another, and where one answers for
-// the cluster (mode shared) from one of its receivers to each light. Trees are built apart.
+// the cluster (mode shared) from one of its receivers to each light; lights of a class in their
+// order in the scene. All clusters and all drawn lights are asked for both: those that have rays of
+// their own in mode shared, clusters at edges among them, cost more than the floor says. Trees are
+// built apart.
 //
 // The search for dominant lights has no floor: the ratios of modes shared and unbiased are upper
 // limits.
@@ -148,6 +151,7 @@ class Samples {
         const ChosenLight chosen = numbers_.at(light.number);
         if (chosen.lightClass == lightClass) indices.push_back(static_cast<uint32_t>(chosen.index));
       }
+      std::sort(indices.begin(), indices.end());  // as they are gathered
       for (size_t first = 0; first < indices.size(); first += kBlockLights) {
         const size_t count = std::min(kBlockLights, indices.size() - first);
         addBlock(lightClass, std::span(indices).subspan(first, count), sample);
@@ -248,7 +252,7 @@ BenchTable emptyTable() {
        {"ray_floor", "seconds: rays", "{:.2f}"},
        {"shade_floor", "shading", "{:.2f}"},
        {"bound_floor", "bounds or estimates", "{:.2f}"},
-       {"seconds", "gather without trees", "{:.2f}"},
+       {"seconds_without_trees", "gather without trees", "{:.2f}"},
        {"ratio", "over the floors", "{:.2f}"}},
       {},
       {"Rates on all threads by the clock, the best of some turns. Bounds of pairs of nodes in "

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "lobelia/app/bench_plot.h"
 #include "lobelia/app/bench_sglc.h"
@@ -21,17 +23,18 @@ struct Frame {
   Film film, reference;
 };
 
-// Root mean square of f(pixel) over pixels and channels of the reference.
+// Root of the sum of squares of f(pixel) over the reference's pixels and channels. Values that are
+// not finite are left out: compare() counts them.
 template <class F>
-double rootMeanSquare(const Film& reference, const F& f) {
-  double sum = 0, count = 0;
+double norm(const Film& reference, const F& f) {
+  double sum = 0;
   for (size_t i = 0; i < reference.pixelCount(); ++i) {
     if (!reference.alpha.empty() && reference.alpha[i] == 0) continue;
     const Rgb v = f(i);
-    sum += static_cast<double>(v.x * v.x + v.y * v.y + v.z * v.z);
-    count += 3;
+    const double square = static_cast<double>(v.x * v.x + v.y * v.y + v.z * v.z);
+    if (std::isfinite(square)) sum += square;
   }
-  return std::sqrt(sum / std::max(count, 1.));
+  return std::sqrt(sum);
 }
 
 class Frames {
@@ -52,8 +55,7 @@ class Frames {
       scene_.progress(fmt::format("frame {} of {}", number + 1, kFrames));
       view.setCamera(turned(begin, pivot, axis, number * kTurn));
       Frame now{gathered(defaultMethod(), BenchScene::Extent::picture),
-                gathered({"all", "", [](RenderOptions& options) { options.gather = "all"; }},
-                         BenchScene::Extent::pixels)};
+                gathered(everyLight(), BenchScene::Extent::pixels)};
       if (!context.cancelled()) add(number, number > 0 ? &before : nullptr, now);
       before = std::move(now);
     }
@@ -75,28 +77,27 @@ class Frames {
           {"change_every_light", "by every light", "{:.4f}"},
           {"change_of_error", "of the error", "{:.4f}"}},
          {},
-         {fmt::format("The camera turns about what it looks at by {:g} degrees a frame. l2 of a "
-                      "frame against every light at the pixels compared; root mean squares of "
-                      "differences to the frame before, over the root mean square of every light. "
-                      "The last row has the means. Errors of neighbouring frames that have nothing "
-                      "in common change by l2 times the root of two.",
-                      360 * kTurn)}});
+         {fmt::format(
+             "The camera turns about what it looks at by {:g} degrees a frame. l2 of a "
+             "frame against every light at the pixels compared; root mean squares of "
+             "differences to the frame before, over the root mean square of every light. "
+             "Row \"mean\": of a scene's frames. Errors of neighbouring frames that have nothing "
+             "in common change by l2 times the root of two.",
+             360 * kTurn)}});
   }
 
   void add(int number, const Frame* before, const Frame& now) {
     const Film& reference = now.reference;
-    const double norm = rootMeanSquare(reference, [&](size_t i) { return reference.rgb(i); });
-    const double l2 =
-        rootMeanSquare(reference, [&](size_t i) { return now.film.rgb(i) - reference.rgb(i); }) /
-        norm;
+    const double whole = norm(reference, [&](size_t i) { return reference.rgb(i); });
+    const double l2 = compare(now.film, reference).l2;
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     double change[3] = {kNone, kNone, kNone};
     if (before != nullptr) {
       const auto ours = [&](size_t i) { return now.film.rgb(i) - before->film.rgb(i); };
       const auto all = [&](size_t i) { return reference.rgb(i) - before->reference.rgb(i); };
-      change[0] = rootMeanSquare(reference, ours) / norm;
-      change[1] = rootMeanSquare(reference, all) / norm;
-      change[2] = rootMeanSquare(reference, [&](size_t i) { return ours(i) - all(i); }) / norm;
+      change[0] = norm(reference, ours) / whole;
+      change[1] = norm(reference, all) / whole;
+      change[2] = norm(reference, [&](size_t i) { return ours(i) - all(i); }) / whole;
       for (int k = 0; k < 3; ++k) curves_[k].points.emplace_back(number, change[k]);
       for (int k = 0; k < 3; ++k) means_[k + 1] += change[k] / (kFrames - 1);
     }

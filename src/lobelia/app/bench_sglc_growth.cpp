@@ -17,6 +17,7 @@ constexpr double kFirstLights = 10'000, kLightFactor = 3.16227766;
 constexpr int kCoarsest = 8;    // pictures begin at this part of the side asked for
 constexpr int kSideFactor = 2;  // between them
 constexpr const char* kNaive = "every light";
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostSteps = 3;      // of quality, to reach an error
 constexpr double kStepFactor = 2;  // of a step
 
@@ -48,7 +49,6 @@ class Growth {
     addEqual(scene, x, context);
     const SglcOutcome& all = scene.reference();
     if (context.cancelled()) return;
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     table().rows.push_back({scene.stem(), kNaive, x, scene.bruteForceSeconds(), all.per(all.rays),
                             kNone, kNone, kNone});
     addPoint(kNaive, x, scene.bruteForceSeconds(),
@@ -97,34 +97,33 @@ class Growth {
       above = above || o.error.l2 >= error_, below = below || o.error.l2 <= error_;
       value *= o.error.l2 > error_ ? kStepFactor : 1 / kStepFactor;
     }
-    const auto at = [&](std::vector<std::pair<double, double>>& curve) {
-      std::sort(curve.begin(), curve.end());
-      return interpolated(curve, error_);
-    };
+    const auto at = [&](const auto& curve) { return interpolated(curve, error_); };
     const std::string label = method.label + ", equal l2";
     const double time = at(seconds), allRays = at(rays), all = at(visited);
     const double count = static_cast<double>(scene.scene().pictureCount());
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     table().rows.push_back({scene.stem(), label, x, time, allRays / count, all / count,
                             std::isfinite(time) ? error_ : kNone, kNone});
     if (std::isfinite(time)) addPoint(label, x, time, allRays);
   }
 
   BenchTable& table() {
-    return report_.table({key_,
-                          "",
-                          {{"scene", "scene"},
-                           {"method", "method"},
-                           {label_, label_, "{:.0f}"},
-                           {"seconds", "seconds", "{:.2f}"},
-                           {"rays_per_pixel", "rays per pixel", "{:.1f}"},
-                           {"visited_per_pixel", "nodes visited per pixel", "{:.1f}"},
-                           {"l2", "l2", "{:.4f}"},
-                           {"mean_ratio", "mean ratio", "{:.4f}"}},
-                          {},
-                          {"Seconds of whole pictures; of every light extrapolated from the pixels "
-                           "compared. Equal l2: that of the default for all that is asked for, "
-                           "between two cut sizes interpolated in logarithms."}});
+    return report_.table(
+        {key_,
+         "",
+         {{"scene", "scene"},
+          {"method", "method"},
+          {label_, label_, "{:.0f}"},
+          {"seconds", "seconds", "{:.2f}"},
+          {"rays_per_pixel", "rays per pixel", "{:.1f}"},
+          {"visited_per_pixel", "nodes visited per pixel", "{:.1f}"},
+          {"l2", "l2", "{:.4f}"},
+          {"mean_ratio", "mean ratio", "{:.4f}"}},
+         {},
+         {"Seconds of whole pictures; of every light extrapolated from the pixels "
+          "compared. Equal l2: that of the default for all that is asked for, "
+          "between two cut sizes interpolated in logarithms; \"-\", and not in the "
+          "exponents, where an eighth of the nodes to eight times as many do not "
+          "reach it."}});
   }
   void addPoint(const std::string& label, double x, double seconds, double rays) {
     auto found = std::find_if(grown_.begin(), grown_.end(),
@@ -156,6 +155,7 @@ std::vector<uint64_t> lightCounts(uint64_t most) {
 void sglcLightGrowth(const BenchOptions& options, SglcScene& scene, FigureReport& report,
                      Context& context) {
   Growth lights("figure9_lights", "Figure 9a: growth with lights", "lights", scene, report);
+  if (context.cancelled()) return;
   for (const uint64_t count : lightCounts(scene.view().lights)) {
     if (count == scene.view().lights) {
       lights.add(scene, static_cast<double>(scene.lights().size()), context);
@@ -174,6 +174,7 @@ void sglcLightGrowth(const BenchOptions& options, SglcScene& scene, FigureReport
 void sglcPixelGrowth(const BenchOptions& options, SglcScene& scene, FigureReport& report,
                      Context& context) {
   Growth pixels("figure9_pixels", "Figure 9b: growth with pixels", "pixels", scene, report);
+  if (context.cancelled()) return;
   const Camera& camera = scene.scene().camera();
   for (int divisor = kCoarsest; divisor >= 1; divisor /= kSideFactor) {
     if (divisor == 1) {

@@ -119,6 +119,9 @@ std::vector<SglcMethod> sglcMethods(const SglcSettings& settings) {
   return methods;
 }
 
+SglcMethod everyLight() {
+  return {"all", "every light", [](RenderOptions& options) { options.gather = "all"; }};
+}
 SglcMethod defaultMethod() { return byMode("shared"); }
 SglcMethod approximateMethod() { return byMode("paper"); }
 

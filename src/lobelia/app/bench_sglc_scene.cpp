@@ -99,12 +99,14 @@ SglcOutcome SglcScene::measure(const SglcMethod& method, BenchScene::Extent exte
 
 const SglcOutcome& SglcScene::reference() {
   if (!reference_) {
-    const bool layers = settings_.hasLayers();
-    const auto all = [=](RenderOptions& options) {
-      options.gather = "all";
-      if (layers) options.aovs = "types";
-    };
-    reference_ = measure({"all", "every light", all}, BenchScene::Extent::pixels);
+    SglcMethod all = everyLight();
+    if (settings_.hasLayers()) {
+      all.change = [inner = all.change](RenderOptions& options) {
+        inner(options);
+        options.aovs = "types";
+      };
+    }
+    reference_ = measure(all, BenchScene::Extent::pixels);
   }
   return *reference_;
 }

@@ -26,8 +26,9 @@ class Spent {
   static constexpr const char* kStages[] = {"receivers", "lights",   "trees",      "rows",
                                             "cluster",   "traverse", "visibility", "shade"};
   static constexpr const char* kCounters[] = {
-      "shadow_rays", "path_rays",         "node_pairs_visited", "node_pairs_shaded",
-      "cut_lights",  "receiver_clusters", "clustered_lights",   "clustered_receivers"};
+      "shadow_rays",        "shared_rays",       "path_rays",
+      "node_pairs_visited", "node_pairs_shaded", "cut_lights",
+      "receiver_clusters",  "clustered_lights",  "clustered_receivers"};
   const Statistics& statistics_;
   std::map<std::string, double> seconds_;
   std::map<std::string, uint64_t> counts_;

@@ -25,7 +25,8 @@ constexpr const char* kCounters[] = {
     "node_pairs_visited", "node_pairs_shaded", "specular_connections",
     "cut_lights",         "receiver_clusters", "clustered_receivers",
     "clustered_lights",   "dominant_lights",   "dominant_comparisons",
-    "rich_lights",        "rich_bytes"};
+    "rich_lights",        "rich_bytes",        "shared_rays",
+    "error_missed"};
 
 constexpr int64_t kSaveTimes = 10;  // between two saves passes so often the time of one,
 constexpr int64_t kLongestWait = 60'000'000'000;  // nanoseconds; but no longer than this
@@ -66,7 +67,8 @@ std::string hashOf(const std::string& file) {
 }
 
 // Settings that several strategies have, each with its own meaning and default.
-constexpr const char* kOfGather[] = {"--columns", "--memory", "--cut-size", "--threshold"};
+constexpr const char* kOfGather[] = {"--columns", "--memory", "--cut-size", "--threshold",
+                                     "--error"};
 
 // Both ways, so that a setting that only one side has shows too, unless another difference (of
 // --lights, --gather...) is what brings it.

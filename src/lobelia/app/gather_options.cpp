@@ -105,7 +105,12 @@ size_t gatheredLights(size_t lights, const RenderOptions& options) {
   // Of a receiver's pairs of nodes: as many receivers as a band has should share them.
   constexpr size_t kNodes = 2000;
   if (gathersPairs(options) || options.gather == "illumcut") return std::min(lights, kNodes);
-  if (hasCutSize(options)) return std::min(lights, kCostOfChoice * cutSizeOf(options));
+  if (hasCutSize(options)) {
+    // Hardly any cut that ends by its error grows to what it may have.
+    const bool byError = options.error > 0 && options.cutSize == 0;
+    const size_t nodes = byError ? gather::CutSettings().nodes : cutSizeOf(options);
+    return std::min(lights, kCostOfChoice * nodes);
+  }
   if (options.gather == "lightslice") return std::min(lights, sliceColumnsOf(options));
   if (options.lights == "richvpl") return std::min(lights, richLightsOf(options));
   return options.gather == "mrcs" ? std::min(lights, mostColumns(options)) : lights;

@@ -26,7 +26,7 @@ gather::CutGatherSettings cutSettings(const RenderOptions& options, const BandPl
   gather::CutGatherSettings settings;
   settings.gather = plan.gather;
   settings.cut.nodes = cutSizeOf(options);
-  // The picture is the mean of samples whose lights are drawn one by one.
+  // The picture is the mean of samples, whose receivers lie apart and draw lights of their own.
   settings.cut.error =
       static_cast<float>(options.error * std::sqrt(static_cast<double>(plan.eye.sampleCount)));
   settings.shared = cutModeOf(options) == "shared";

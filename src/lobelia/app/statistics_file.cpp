@@ -107,12 +107,13 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
   if (gathers && hasCutSize(options)) json["gather"]["cut_size"] = cutSizeOf(options);
   if (options.gather == "sglc" && options.error > 0 && gathers) {
     json["gather"]["clusters_missing_error"] =
-        ratio(static_cast<double>(s.count("clusters_missing_error")),
+        ratio(static_cast<double>(s.count("error_missed")),
               static_cast<double>(s.count("receiver_clusters")));
   }
   json["receivers"] = {{"diffuse", report.diffuseReceivers}, {"glossy", report.glossyReceivers}};
   json["seconds"] = secondsJson(s);
   json["counts"] = {{"shadow_rays", s.count("shadow_rays")},
+                    {"shared_rays", s.count("shared_rays")},
                     {"path_rays", s.count("path_rays")},
                     {"rays_per_pixel", ratio(shadowRays, static_cast<double>(pixels))},
                     {"node_pairs_visited", s.count("node_pairs_visited")},

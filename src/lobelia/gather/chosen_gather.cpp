@@ -37,7 +37,7 @@ void GatherTally::book(Context& context) const {
   s.addCount("receiver_clusters", clusters);
   s.addCount("clustered_receivers", clusteredReceivers);
   s.addCount("clustered_lights", clusteredLights);
-  s.addCount("clusters_missing_error", missed);
+  s.addCount("error_missed", missed);
   s.addSeconds("traverse", static_cast<double>(traverseNs) * toSeconds);
   s.addSeconds("visibility", static_cast<double>(visibilityNs) * toSeconds);
   s.addSeconds("shade", static_cast<double>(shadeNs) * toSeconds);

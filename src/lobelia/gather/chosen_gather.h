@@ -19,7 +19,7 @@ struct GatherTally {
   uint64_t evaluations = 0;  // of nodes' bounds or estimates
   // Clusters of receivers that share lights, their receivers, what they gather of what there is.
   uint64_t clusters = 0, clusteredReceivers = 0, lights = 0, clusteredLights = 0;
-  uint64_t missed = 0;               // clusters whose cuts are as large as allowed and no better
+  uint64_t missed = 0;  // clusters whose cuts ended by their size before CutSettings::error
   std::optional<uint32_t> firstBad;  // the smallest pixel with a pair that was not finite
   int64_t traverseNs = 0, visibilityNs = 0, shadeNs = 0;  // of threads
 

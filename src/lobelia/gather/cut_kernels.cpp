@@ -97,7 +97,9 @@ class Importance {
 };
 
 // The error of what is gathered is about so many times what estimates say (docs/performance.md,
-// "An error aimed at"): they know neither what hides lights nor how wrong they are.
+// "An error aimed at"): they know neither what hides lights nor how wrong they are. Of several
+// representatives, nodes' roots of sums of squares add up to more than all there is, up to twice as
+// much for four.
 constexpr double kErrorPerDeviation = 3;
 // Estimates of fewer nodes say nothing about an error.
 constexpr size_t kLeastNodes = 64;
@@ -144,10 +146,15 @@ class CutGrowth {
     variance_ += sign * sqr(double{entry.priority});
   }
   // With nothing left to split it is met.
-  bool meets(float error) const {
+  bool meets(float error) {
     if (heap_.empty()) return true;
     if (!(error > 0) || heap_.size() + done_.size() < kLeastNodes) return false;
-    return kErrorPerDeviation * std::sqrt(std::max(variance_, 0.0)) <= double{error} * all_;
+    const double most = sqr(double{error} / kErrorPerDeviation * all_);
+    if (variance_ > most) return false;
+    // What is left of large terms that came and went must not decide.
+    variance_ = 0;
+    for (const Entry& entry : heap_) variance_ += sqr(double{entry.priority});
+    return variance_ <= most;
   }
 
   static bool less(const Entry& a, const Entry& b) {
@@ -339,7 +346,8 @@ size_t drawCutLights(const g::CutReceivers& receivers, int representatives,
                      std::vector<g::CutLight>* lights) {
   lights->clear();
   Importance importance(receivers, representatives, trees, settings.floor);
-  scratch->missed = !CutGrowth(trees, &importance, scratch).run(settings.nodes, settings.error);
+  const bool met = CutGrowth(trees, &importance, scratch).run(settings.nodes, settings.error);
+  scratch->missed = settings.error > 0 && !met;
   std::vector<Entry>& cut = scratch->done;
   const float least = g::kDominant * sumOf(cut);
   const size_t compared = keepDominant(receivers, trees, dominant, importance.scale(), least,

@@ -42,7 +42,7 @@ struct CutScratch {
   };
   std::vector<Dominant> strongest;
   std::vector<DominantLights::Leaf> dominant;
-  bool missed = false;  // CutSettings::error, as the cut had all the nodes it may have
+  bool missed = false;  // the last cut ended by its size before CutSettings::error was met
 };
 
 // A light that makes at least this share of what a cluster gets is not left to chance.

@@ -29,7 +29,8 @@ constexpr size_t kPilot = 16;
 
 }  // namespace
 
-// One cluster after the other.
+// Some clusters: chooses the lights of all of them, then gathers these, so that neither the light
+// trees nor what shadow rays meet goes out of the caches for every cluster.
 class LightCuts::ClusterGather {
  public:
   ClusterGather(const LightCuts& cuts, const ReceiverClusters& clusters, GatherParts* parts)
@@ -50,25 +51,33 @@ class LightCuts::ClusterGather {
     return target;
   }
 
-  // recorder: null where the cut is not kept.
-  void run(const ReceiverClusters::Cluster& cluster, std::span<const DominantLights::Leaf> dominant,
-           std::span<Rgb> radiance, GatherTally* tally, const CutRecorder* recorder = nullptr,
-           RecordedCut* record = nullptr) {
+  // Chooses a cluster's lights. recorder: null where the cut is not kept.
+  void choose(const ReceiverClusters::Cluster& cluster,
+              std::span<const DominantLights::Leaf> dominant, GatherTally* tally,
+              const CutRecorder* recorder, RecordedCut* record) {
     const int64_t start = nanosecondsNow();
-    const Tile tile = tileOf(cluster);
-    const uint64_t seed = keyOf(receivers_.points[cluster.begin], cuts_.settings_.seed);
+    if (count_ == waiting_.size()) waiting_.emplace_back();
+    Waiting& waiting = waiting_[count_++];
+    waiting.tile = tileOf(cluster);
+    waiting.seed = keyOf(receivers_.points[cluster.begin], cuts_.settings_.seed);
     tally->evaluations +=
-        drawCutLights(cutReceivers(tile, receivers_), cluster.representatives, cuts_.trees_,
-                      dominant, cuts_.settings_.cut, seed, &scratch_, &drawn_);
+        drawCutLights(cutReceivers(waiting.tile, receivers_), cluster.representatives, cuts_.trees_,
+                      dominant, cuts_.settings_.cut, waiting.seed, &scratch_, &drawn_);
     if (recorder != nullptr) recorder->record(scratch_, drawn_, record);
-    choose(cluster.compact && cuts_.settings_.shared);
-    tally->lights += chosen_.size();
+    setLights(cluster.compact && cuts_.settings_.shared, &waiting.lights);
+    tally->lights += waiting.lights.size();
     tally->clusteredLights += cuts_.numbers_.count();
     ++tally->clusters;
-    if (cuts_.settings_.cut.error > 0 && scratch_.missed) ++tally->missed;
+    if (scratch_.missed) ++tally->missed;
     tally->clusteredReceivers += cluster.end - cluster.begin;
     tally->traverseNs += nanosecondsNow() - start;
-    gather_.add(tile, chosen_, radiance, tally, seed);
+  }
+
+  // Gathers what was chosen.
+  void gather(std::span<Rgb> radiance, GatherTally* tally) {
+    for (const Waiting& waiting : std::span(waiting_).first(count_))
+      gather_.add(waiting.tile, waiting.lights, radiance, tally, waiting.seed);
+    count_ = 0;
   }
 
  private:
@@ -78,9 +87,9 @@ class LightCuts::ClusterGather {
     return tile;
   }
 
-  // What was drawn, in the order in which it is gathered.
-  void choose(bool share) {
-    chosen_.clear();
+  // To what was drawn, in the order in which it is gathered.
+  void setLights(bool share, std::vector<ChosenLight>* chosen) const {
+    chosen->clear();
     size_t sharing[std::size(kLightClasses)] = {};
     for (const CutLight& drawn : drawn_) {
       ChosenLight light = cuts_.numbers_.at(drawn.number);
@@ -90,14 +99,13 @@ class LightCuts::ClusterGather {
         light.rays = sharing[static_cast<size_t>(light.lightClass)]++ % kPilot == 0
                          ? ChosenLight::Rays::pilot
                          : ChosenLight::Rays::shared;
-      chosen_.push_back(light);
+      chosen->push_back(light);
     }
-    std::stable_sort(chosen_.begin(), chosen_.end(),
-                     [](const ChosenLight& a, const ChosenLight& b) {
-                       if (a.lightClass != b.lightClass) return a.lightClass < b.lightClass;
-                       if (a.rays != b.rays) return a.rays < b.rays;
-                       return a.index < b.index;
-                     });
+    std::sort(chosen->begin(), chosen->end(), [](const ChosenLight& a, const ChosenLight& b) {
+      if (a.lightClass != b.lightClass) return a.lightClass < b.lightClass;
+      if (a.rays != b.rays) return a.rays < b.rays;
+      return a.index < b.index;
+    });
   }
 
   const LightCuts& cuts_;
@@ -105,7 +113,13 @@ class LightCuts::ClusterGather {
   ChosenGather gather_;
   CutScratch scratch_;
   std::vector<CutLight> drawn_;
-  std::vector<ChosenLight> chosen_;
+  struct Waiting {
+    Tile tile;
+    std::vector<ChosenLight> lights;
+    uint64_t seed = 0;
+  };
+  std::vector<Waiting> waiting_;
+  size_t count_ = 0;  // of them, the rest is memory to use again
 };
 
 LightCuts::LightCuts(const Tracer& tracer, const VirtualLights& lights,
@@ -140,7 +154,7 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
     const ReceiverClusters::Cluster& cluster = clusters.clusters[i];
     return holdsPixel(clusters.receivers, cluster.begin, cluster.end, onlyPixel);
   };
-  constexpr size_t kGrain = 8;
+  constexpr size_t kGrain = 32;
   DominantLights dominant;
   {
     const StageTimer timer(context, "traverse");
@@ -169,8 +183,9 @@ void LightCuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
         ClusterGather gather(*this, clusters, ordered ? &*ordered : nullptr);
         for (size_t i = begin; i < end && !context.cancelled(); ++i)
           if (gathered(i))
-            gather.run(clusters.clusters[i], dominant.of(i), radiance, tally,
-                       recorder ? &*recorder : nullptr, recorder ? &records[i] : nullptr);
+            gather.choose(clusters.clusters[i], dominant.of(i), tally,
+                          recorder ? &*recorder : nullptr, recorder ? &records[i] : nullptr);
+        gather.gather(radiance, tally);
       });
   if (parts != nullptr) {
     parts->setOrdered(*ordered, clusters.order, points);

@@ -41,9 +41,9 @@ class LightCuts : public PreparedGather {
   // As gatherAll(), whose mean this has but for visibility where it is shared. Also counts
   // "node_pairs_visited" (nodes whose estimate was computed), "cut_lights", "receiver_clusters",
   // "clustered_receivers" and "clustered_lights" (lights times clusters), "dominant_lights" and
-  // "dominant_comparisons" (DominantLights), "clusters_missing_error" (CutSettings::error); books
-  // the seconds of choosing lights to "traverse". onlyPixel: GatherSettings::onlyPixel, for
-  // clusters.
+  // "dominant_comparisons" (DominantLights), "error_missed" (clusters for which CutSettings::error
+  // was too much); books the seconds of choosing lights to "traverse". onlyPixel:
+  // GatherSettings::onlyPixel, for clusters.
   void gather(const Receivers& receivers, uint32_t onlyPixel, std::span<Rgb> radiance,
               Context& context, GatherParts* parts = nullptr) const override;
   std::vector<ExportedTree> exportTrees() const override;

@@ -23,8 +23,8 @@ struct PairMasks {
 };
 
 // Keeps of the pairs those that face each other (no factor but visibility is zero) and that nothing
-// stands between. coherent: of most lights or most receivers there are several pairs. Returns the
-// number of rays traced.
+// stands between. coherent: a hint to Embree, for speed alone; false where hardly any two rays
+// share a light or a receiver. Returns the number of rays traced.
 size_t keepVisible(const Tile& tile, const LightBlock& block, const Tracer& tracer,
                    PairMasks* pairs, bool coherent = true);
 

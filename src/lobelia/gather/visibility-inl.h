@@ -4,7 +4,8 @@
 // 16 rays have gathered they are traced as a packet. Neighbours in it come from neighbouring points
 // and mostly go to one light, which is what makes packets coherent. Where the points of a strip lie
 // further apart than the lights (few pixels of a picture, or very many lights), the order is strip,
-// lane, light.
+// lane, light. Where one receiver is asked for each light (keepVisibleByOne()), no two rays of a
+// packet share either, and it is not called coherent.
 #if defined(LOBELIA_GATHER_VISIBILITY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_GATHER_VISIBILITY_INL_H_
 #undef LOBELIA_GATHER_VISIBILITY_INL_H_

@@ -5,10 +5,10 @@
 
 namespace lobelia {
 
-// Puts the lights of each class, which are sorted by depth, in each depth along a Morton curve:
-// neighbours in the array are neighbours in the scene, so that shadow rays to a block of lights are
-// coherent and the near fields of a block lie together. Their groups go along. bounds: of the
-// scene.
+// Puts diffuse, glossy and spherical lights, which are sorted by depth, in each depth along a
+// Morton curve: neighbours in the array are neighbours in the scene, so that shadow rays to a block
+// of lights are coherent and the near fields of a block lie together. Their groups go along.
+// bounds: of the scene.
 void sortByPlace(const Bounds3f& bounds, VirtualLights* lights);
 
 }  // namespace lobelia
