@@ -352,9 +352,8 @@ size_t drawCutLights(const g::CutReceivers& receivers, int representatives,
   const float least = g::kDominant * sumOf(cut);
   const size_t compared = keepDominant(receivers, trees, dominant, importance.scale(), least,
                                        settings.nodes, scratch, lights);
-  std::sort(cut.begin(), cut.end(), [](const Entry& a, const Entry& b) {
-    return a.tree != b.tree ? a.tree < b.tree : a.node < b.node;
-  });
+  scratch->byNode.run(&cut,
+                      [](const Entry& entry) { return uint64_t{entry.tree} << 32 | entry.node; });
   for (size_t begin = 0, end; begin < cut.size(); begin = end) {
     for (end = begin; end < cut.size() && cut[end].tree == cut[begin].tree;) ++end;
     Descents(trees[cut[begin].tree], std::span(cut).subspan(begin, end - begin), seed,

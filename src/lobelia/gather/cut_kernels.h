@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "lobelia/base/key_sort.h"
 #include "lobelia/gather/cut_receivers.h"
 #include "lobelia/gather/dominant_lights.h"
 #include "lobelia/gather/kernels.h"
@@ -35,6 +36,7 @@ struct CutScratch {
     uint32_t tree, node;
   };
   std::vector<Entry> heap, done;
+  KeySort<Entry> byNode;
   std::vector<CutLight> drawn;
   struct Dominant {
     DominantLights::Leaf leaf;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <optional>
 
+#include "lobelia/base/key_sort.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
 #include "lobelia/gather/chosen_gather.h"
@@ -88,7 +89,7 @@ class LightCuts::ClusterGather {
   }
 
   // To what was drawn, in the order in which it is gathered.
-  void setLights(bool share, std::vector<ChosenLight>* chosen) const {
+  void setLights(bool share, std::vector<ChosenLight>* chosen) {
     chosen->clear();
     size_t sharing[std::size(kLightClasses)] = {};
     for (const CutLight& drawn : drawn_) {
@@ -101,10 +102,9 @@ class LightCuts::ClusterGather {
                          : ChosenLight::Rays::shared;
       chosen->push_back(light);
     }
-    std::sort(chosen->begin(), chosen->end(), [](const ChosenLight& a, const ChosenLight& b) {
-      if (a.lightClass != b.lightClass) return a.lightClass < b.lightClass;
-      if (a.rays != b.rays) return a.rays < b.rays;
-      return a.index < b.index;
+    order_.run(chosen, [](const ChosenLight& light) {
+      return uint64_t{static_cast<uint8_t>(light.lightClass)} << 36 |
+             uint64_t{static_cast<uint8_t>(light.rays)} << 32 | static_cast<uint32_t>(light.index);
     });
   }
 
@@ -113,6 +113,7 @@ class LightCuts::ClusterGather {
   ChosenGather gather_;
   CutScratch scratch_;
   std::vector<CutLight> drawn_;
+  KeySort<ChosenLight> order_;
   struct Waiting {
     Tile tile;
     std::vector<ChosenLight> lights;
