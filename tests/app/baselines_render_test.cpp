@@ -90,6 +90,19 @@ TEST_F(BaselinesRender, IlluminationCut) {
   EXPECT_LT(compare(full, all).l2, 1.1 * before);
 }
 
+// Tails of sharp lobes and places with next to no light are no error.
+TEST_F(BaselinesRender, RichVplsOfFaintLightAreFinite) {
+  for (const std::string scene : {"box", "kitchen"})
+    for (const std::string form : {"cube", "vmf"}) {
+      const std::string file = folder_ / (scene + form);
+      const test::ProgramResult r = test::runProgram(
+          "render " + scene + " --detail 0.2 --size 32x24 --spp 1 --quiet --lights richvpl " +
+          "--richvpl-radiance " + form + " -o " + file + ".exr --stats " + file + ".json");
+      ASSERT_EQ(r.exitCode, 0) << r.err;
+      EXPECT_EQ(statistics(scene + form)["counts"]["nonfinite"], 0) << scene << " " << form;
+    }
+}
+
 TEST_F(BaselinesRender, RichVpls) {
   const Film all = render(kBase, "all");
   for (const std::string form : {"cube --richvpl-texels 32", "vmf"}) {

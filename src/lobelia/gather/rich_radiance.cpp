@@ -203,7 +203,10 @@ void RichRadiance::setTexels(size_t i, std::span<const RichLobe> lobes) {
       most = std::max(
           most, values[c * count + t] + lights_[i].cosine[static_cast<int>(c)] * directions[t].z);
   lights_[i].peak = std::max(most, maxComponent(lights_[i].cosine));
-  if (!(lights_[i].peak > 0)) return;
+  if (!(lights_[i].peak > 1e-30f)) {  // one over it might overflow
+    lights_[i].peak = 0;
+    return;
+  }
   const float inverse = 1 / lights_[i].peak;
   for (float& value : values) value *= inverse;
   packHalves(values.data(), stride_, &halves_[i * stride_]);

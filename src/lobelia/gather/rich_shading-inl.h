@@ -58,6 +58,8 @@ inline V3<Vf> richIntensity(const g::LightBlock& block, size_t l, V3<Vf> w) {
 // the receiver's lobes take the colour.
 inline void applyRich(const g::PointStrip& strip, size_t lane, const g::LightBlock& block,
                       float clamp, PairScratch* pairs) {
+  // Less, in tails of sharp lobes, is nothing: one over it would overflow.
+  constexpr float kLeast = 1e-30f;
   const g::RichRadiance& rich = *block.rich;
   const V3<Vf> p = load(strip.p, lane);
   for (size_t i = 0; i < pairs->count; ++i) {
@@ -66,7 +68,7 @@ inline void applyRich(const g::PointStrip& strip, size_t lane, const g::LightBlo
     const V3<Vf> sent = richIntensity(block, l, d * (Vf(1.f) / sqrt(dot(d, d))));
     const Vf largest = max(sent.x, max(sent.y, sent.z));
     const float peak = rich.light(block.index[l]).peak;
-    Vf factor = Vf::load(pairs->factor[i].v) * largest * Vf(peak > 0 ? 1 / peak : 0.f);
+    Vf factor = Vf::load(pairs->factor[i].v) * largest * Vf(peak > kLeast ? 1 / peak : 0.f);
     if (clamp > 0) factor = clamped(*pairs, i, factor, clamp);
     if (rich.limitsDepth()) {
       alignas(64) float share[kLanes];
@@ -75,7 +77,7 @@ inline void applyRich(const g::PointStrip& strip, size_t lane, const g::LightBlo
       factor = factor * Vf::load(share);
     }
     factor.store(pairs->factor[i].v);
-    const Vf scale = select(largest > Vf(0.f), Vf(1.f) / largest, Vf(0.f));
+    const Vf scale = select(largest > Vf(kLeast), Vf(1.f) / largest, Vf(0.f));
     (Vf::load(pairs->r[i].v) * sent.x * scale).store(pairs->r[i].v);
     (Vf::load(pairs->g[i].v) * sent.y * scale).store(pairs->g[i].v);
     (Vf::load(pairs->b[i].v) * sent.z * scale).store(pairs->b[i].v);
