@@ -227,6 +227,9 @@ TEST_F(BaselinesRender, WrongUseSaysWhatWouldBeRight) {
   expectError("--lights richvpl --gather sglc",
               "--lights richvpl does not combine with --gather sglc; it does with all");
   expectError("--lights richvpl --compensate", "vpl and glossy");
+  expectError("--lights richvpl --near-lights 10", "vpl, glossy and vsl");
+  expectError("--compensate --near-lights 10", "leave out one");
+  expectError("--near-lights -1", "--near-lights");
   expectError("--gather richvpl", "'richvpl' is not known");
   expectError("--lights richvpl --num-lights 3000 --memory 1K", "--richvpl-lights");
 }

@@ -157,6 +157,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"compensate",
                            "--lights vpl --compensate --size 48x40 --spp 8 --num-lights 300 "
                            "--aov direct,indirect,variance,groups,cost"},
+                    Method{"near_lights",
+                           "--near-lights 30 --gather sglc --size 48x40 --spp 8 --num-lights 900 "
+                           "--aov direct,indirect,variance,groups,cost"},
                     Method{"photon",
                            "--lights photon --size 48x40 --spp 16 --num-lights 2000 "
                            "--aov direct,indirect,variance,groups,cost"}),

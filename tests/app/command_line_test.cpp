@@ -138,7 +138,8 @@ TEST(CommandLine, SameSeedSamePixelsForAnyThreads) {
         "glossy --gather lightslice --columns 20 --slices 10",
         "vsl --gather lightcuts --cut-size 20", "vsl --gather mdlc --cut-size 20",
         "glossy --gather illumcut", "glossy --gather stochastic --cut-size 20",
-        "richvpl --richvpl-lights 20", "glossy --compensate", "photon"}) {
+        "richvpl --richvpl-lights 20", "glossy --compensate",
+        "glossy --gather sglc --near-lights 20", "photon"}) {
     const auto render = [&](int threads, const char* seed) {
       const std::string file = folder / (std::to_string(threads) + seed + ".exr");
       const ProgramResult r =

@@ -97,7 +97,8 @@ TEST_F(LightLayers, GroupsSumToThePictureOfEveryMethod) {
        {"--lights path --spp 4", "--lights light --spp 4", "--lights vpl --spp 2",
         "--lights glossy --spp 2", "--lights glossy --spp 2 --direct lights --env-lights 32",
         "--lights path --spp 4 --component indirect", "--lights glossy --spp 2 --component direct",
-        "--lights vpl --spp 2 --compensate", "--lights photon --spp 2"}) {
+        "--lights vpl --spp 2 --compensate", "--lights vpl --spp 2 --near-lights 20",
+        "--lights glossy --spp 2 --near-lights 20 --direct lights", "--lights photon --spp 2"}) {
     const Film film = render("all.xml", method + " --num-lights 64 --aov groups");
     EXPECT_LT(difference(film, groups_, ""), 1e-4) << method;
     for (const std::string& group : groups_)

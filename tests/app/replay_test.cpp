@@ -59,6 +59,8 @@ TEST(Replay, VirtualLightsGiveThePicturesBits) {
   expectSameValue("--lights richvpl --spp 3 --passes 2 --num-lights 700 --richvpl-lights 60");
   expectSameValue("--gather sglc --sglc-mode paper --spp 2 --passes 2 --num-lights 700");
   expectSameValue("--lights vpl --compensate --spp 3 --passes 1 --num-lights 150");
+  expectSameValue(
+      "--lights vsl --gather sglc --near-lights 40 --spp 3 --passes 2 --num-lights 700");
   expectSameValue("--lights photon --spp 3 --passes 2 --num-lights 3000");
 }
 

@@ -4,25 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "support/test_scenes.h"
+#include "gather/path_trial.h"
 
 namespace lobelia {
 namespace {
 
-struct Mean {
-  double value = 0, error = 0;  // standard error
-};
-Mean meanOf(const std::vector<double>& runs) {
-  const double n = static_cast<double>(runs.size());
-  double sum = 0, squares = 0;
-  for (const double v : runs) sum += v;
-  for (const double v : runs) squares += (v - sum / n) * (v - sum / n);
-  return {sum / n, std::sqrt(squares / (n * (n - 1)))};
-}
-
-constexpr uint64_t kRuns = 16;
+using namespace test;
 
 struct Setting {
   bool glossy = true;
@@ -30,41 +17,15 @@ struct Setting {
   int maxDepth = -1;
 };
 
-class Trial {
+class Trial : public PathTrial {
  public:
-  explicit Trial(Scene scene) : scene_(std::move(scene)), tracer_(scene_, context_) {}
-
-  Mean path(int maxDepth) {
-    PathSettings settings;
-    settings.spp = 64;
-    settings.maxDepth = maxDepth;
-    std::vector<double> runs;
-    for (uint64_t run = 0; run < kRuns; ++run) {
-      context_.seed = 1000 + run;
-      Film film = test::filmFor(camera(), {"direct", "indirect"});
-      renderPath(tracer_, emitters_, camera(), settings, film, context_);
-      runs.push_back(sum(film));
-    }
-    return meanOf(runs);
-  }
+  using PathTrial::PathTrial;
 
   Mean lights(const Setting& setting, bool compensated) {
-    std::vector<double> runs;
-    for (uint64_t run = 0; run < kRuns; ++run) {
-      context_.seed = run;
-      runs.push_back(lightsOnce(setting, compensated));
-    }
-    return meanOf(runs);
+    return mean([&] { return lightsOnce(setting, compensated); });
   }
 
  private:
-  const Camera& camera() const { return scene_.cameras[0]; }
-  static double sum(const Film& film) {
-    double out = 0;
-    for (const float v : film.layers.at("indirect").values) out += double{v};
-    return out / static_cast<double>(film.pixelCount());
-  }
-
   double lightsOnce(const Setting& setting, bool compensated) {
     LightSettings lightSettings;
     lightSettings.count = 1000;
@@ -95,32 +56,7 @@ class Trial {
     }
     return sum(film) + gathered / static_cast<double>(film.pixelCount());
   }
-
-  Context context_;
-  Scene scene_;
-  Tracer tracer_;
-  EmitterSampler emitters_{scene_, tracer_.bounds()};
 };
-
-Material material(MaterialType type, float alpha) {
-  Material m;
-  m.type = type;
-  m.diffuse = Rgb(0.6f, 0.5f, 0.4f);
-  m.specular = Rgb(0.8f);
-  m.ior = 1.6f;
-  m.alphaU = m.alphaV = alpha;
-  return m;
-}
-
-// A box with two coarse smooth-shaded balls and a floor of the given materials.
-Scene roomWith(const Material& ball, const Material& floor) {
-  Scene scene = test::boxScene();
-  const MaterialHandle handle = test::addMaterial(scene, ball);
-  test::addSphere(scene, {-0.4f, -0.5f, 0.3f}, 0.4f, handle, {}, 8);
-  test::addSphere(scene, {0.5f, -0.3f, 0.2f}, 0.35f, handle, {}, 8);
-  scene.instances[test::floorWall].material = test::addMaterial(scene, floor);
-  return scene;
-}
 
 void expectUnbiased(Scene scene, const Setting& setting, const char* name) {
   SCOPED_TRACE(name);

@@ -95,6 +95,27 @@ TEST_F(GatherAll, ClampLimitsGeometryTimesLobes) {
   EXPECT_GT(darker, whole.size() / 4);
 }
 
+// Of what is near, receivers gather a share only.
+TEST_F(GatherAll, NearLightsCountBySharesThatGrowWithTheDistance) {
+  Receivers receivers =
+      randomReceivers(100, {LobeType::lambert, LobeType::microfacetReflection}, 2, 7);
+  const VirtualLights lights = randomLights(60, 100.f, 8);
+  GatherSettings settings;
+  settings.direct = true;
+  const std::vector<Rgb> whole = gather(receivers, lights, settings);
+  Rng rng(3);
+  for (ReceiverPoint& point : receivers.points)
+    if (rng.next1D() < 0.8f) point.nearDistance = 2 * rng.next1D();
+  expectOracle(receivers, lights, settings);
+  const std::vector<Rgb> far = gather(receivers, lights, settings);
+  size_t darker = 0;
+  for (size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_LE(far[i].x, whole[i].x * 1.00001f);
+    darker += far[i].x < 0.9f * whole[i].x;
+  }
+  EXPECT_GT(darker, whole.size() / 8);
+}
+
 TEST_F(GatherAll, DepthLimitCountsEyeAndLightEdges) {
   const Receivers receivers = randomReceivers(70, {LobeType::lambert}, 1, 9);
   const VirtualLights lights = randomLights(90, 10.f, 10);

@@ -79,17 +79,22 @@ class Oracle {
     if (!(maxComponent(f) > 0) || tracer_.occluded(ray)) return {};
     return f * toDouble(light.irradiance);
   }
+  static double share(const ReceiverPoint& point, Vec3d d) {
+    if (point.nearDistance == 0) return 1;
+    return std::clamp(2 * length(d) / double{point.nearDistance} - 1, 0.0, 1.0);
+  }
   Vec3d diffuse(const ReceiverPoint& point, const DiffuseLight& light) const {
     const Vec3d d = toDouble(point.p) - toDouble(light.p);
     const double cosine = dot(toDouble(decodeOctahedral(light.normal)), normalize(d));
-    return finite(point, light.p, std::max(0.0, cosine) / lengthSquared(d), light.intensity);
+    return finite(point, light.p, std::max(0.0, cosine) * share(point, d) / lengthSquared(d),
+                  light.intensity);
   }
   Vec3d glossy(const ReceiverPoint& point, const GlossyLight& light) const {
     const Vec3d d = toDouble(point.p) - toDouble(light.p), w = normalize(d);
     if (dot(toDouble(light.n), d) <= 0) return {};
     const double lobe =
         std::exp(-0.5 * double{light.sharpness} * lengthSquared(w - toDouble(light.axis)));
-    return finite(point, light.p, lobe / lengthSquared(d), light.intensity);
+    return finite(point, light.p, lobe * share(point, d) / lengthSquared(d), light.intensity);
   }
 
   const Tracer& tracer_;

@@ -180,6 +180,7 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
   s.emplace_back("--passes", std::to_string(o.passes));
   s.emplace_back("--direct", o.direct);
   s.emplace_back("--clamp", o.clamp);
+  s.emplace_back("--near-lights", fmt::format("{}", o.nearLights));
   s.emplace_back("--compensate", o.compensate ? "yes" : "no");
   if (o.lights == "photon") {
     s.emplace_back("--photons-nearest", std::to_string(o.photonsNearest));

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <memory>
 
 #include "lobelia/app/gather_options.h"
+#include "lobelia/lights/light_spacing.h"
 #include "lobelia/lights/spherical_coverage.h"
 #include "lobelia/lights/spherical_radius.h"
 
@@ -48,6 +50,13 @@ LightCounts countLights(const VirtualLights& lights) {
                  lights.spherical.size() * sizeof(SphericalLight);
   counts.particles = lights.particles;
   return counts;
+}
+
+std::function<float(Vec3f)> nearDistanceOf(const VirtualLights& lights,
+                                           const RenderOptions& options) {
+  if (!(options.nearLights > 0)) return {};
+  const auto spacing = std::make_shared<const LightSpacing>(lights);
+  return [spacing, count = options.nearLights](Vec3f p) { return spacing->distance(p, count); };
 }
 
 LightParts splitLights(VirtualLights lights) {

@@ -2,6 +2,8 @@
 // from a file.
 #pragma once
 
+#include <functional>
+
 #include "lobelia/app/render_options.h"
 #include "lobelia/gather/light_block.h"
 #include "lobelia/lights/light_pass.h"
@@ -29,6 +31,9 @@ LightSettings lightSettings(const RenderOptions& options, int maxDepth, int set)
 VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
                            int set, const RenderOptions& options, Context& context);
 LightParts splitLights(VirtualLights lights);
+// EyeSettings::nearDistance where these are the lights of bounces (--near-lights).
+std::function<float(Vec3f)> nearDistanceOf(const VirtualLights& lights,
+                                           const RenderOptions& options);
 // Samples per pixel with virtual lights.
 int virtualLightSamples(const RenderOptions& options);
 // How many sets the samples of a pixel share, and which of them a sample gathers.

@@ -47,6 +47,16 @@ void requireOwnLight(const RenderOptions& options) {
         "--compensate adds what vpl and glossy lights leave out; --lights {} does not combine",
         options.lights));
   }
+  if (options.nearLights > 0) {
+    if (options.compensate)
+      throw UsageError(
+          "--near-lights and --compensate both replace what near virtual lights get wrong; leave "
+          "out one of them");
+    if (options.lights != "vpl" && options.lights != "glossy" && options.lights != "vsl")
+      throw UsageError(fmt::format(
+          "--near-lights takes over from vpl, glossy and vsl lights; --lights {} does not combine",
+          options.lights));
+  }
   if ((options.compensate || photon) && options.direct == "lights") {
     throw UsageError(
         fmt::format("{} leaves direct light to --direct nee; leave out --direct lights",

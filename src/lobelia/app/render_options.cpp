@@ -264,6 +264,12 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "Upper limit of geometry term times lobes, or off; default: off (vpl, and with "
                "--compensate: 127/R^2, R the scene's radius)")
       ->type_name("X");
+  c.add_option("--near-lights", o.nearLights,
+               "With vpl, glossy and vsl: receivers find by rays of their own what is so near that "
+               "fewer than about N virtual lights lie there; 0: nothing")
+      ->type_name("N")
+      ->check(finiteNumber(0, 1e6))
+      ->capture_default_str();
   c.add_flag("--compensate", o.compensate,
              "With vpl and glossy lights: path-trace what clamp and lights leave out");
   c.add_option("--photons-nearest", o.photonsNearest,

@@ -82,8 +82,10 @@ class LightReplay {
     lightCount_ = lights.size();
     lights_.reset();
     ReductionReport unused;
-    LightParts parts = reduceParts(run_.tracer, run_.emitters, camera_, plan_, set,
-                                   splitLights(std::move(lights)), options_, &unused, context_);
+    LightParts parts = splitLights(std::move(lights));
+    plan_.eye.nearDistance = nearDistanceOf(parts.indirect, options_);
+    parts = reduceParts(run_.tracer, run_.emitters, camera_, plan_, set, std::move(parts), options_,
+                        &unused, context_);
     lights_.emplace(run_.tracer, run_.emitters, camera_, plan_, set, std::move(parts), options_,
                     context_);
     set_ = set;

@@ -53,6 +53,18 @@ HWY_INLINE Mf lightFaces(const g::PreparedLight& light, V3<Vf> d) {
   return faces;
 }
 
+// Is any part of the light left to the gather?
+template <g::LightClass kClass>
+HWY_INLINE Mf beyondNear(const g::PointStrip& strip, size_t lane, V3<Vf> d) {
+  if (!g::hasNear(kClass) || !strip.near) return Vf(0.f) == Vf(0.f);
+  return dot(d, d) > Vf::load(strip.squaredNear + lane);
+}
+
+// Share of the light that is left to the gather (gatheredShare()).
+HWY_INLINE Vf gatheredShare(const g::PointStrip& strip, size_t lane, Vf distance) {
+  return min(max(distance * Vf::load(strip.nearScale + lane) - Vf(1.f), Vf(0.f)), Vf(1.f));
+}
+
 // Can the points scatter light that comes along d towards their wo?
 HWY_INLINE Mf receiverFaces(const g::PointStrip& strip, size_t lane, V3<Vf> d) {
   const Vf c = dot(load(strip.n, lane), d);

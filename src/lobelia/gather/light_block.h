@@ -16,6 +16,9 @@ inline constexpr LightClass kLightClasses[] = {LightClass::omni, LightClass::dir
                                                LightClass::diffuse, LightClass::glossy,
                                                LightClass::spherical};
 
+// Are the class' lights on surfaces, which may be near a receiver (ReceiverPoint::nearDistance)?
+constexpr bool hasNear(LightClass lightClass) { return lightClass >= LightClass::diffuse; }
+
 // One record for all classes; a class reads what it has (VirtualLights).
 struct PreparedLight {
   Vec3f p;          // directional: unit direction to the light

@@ -442,11 +442,19 @@ class SphereSamples {
   PairScratch::Lanes lX_[g::kBlockLights], lY_[g::kBlockLights], lZ_[g::kBlockLights];
 };
 
-// The pairs' values but for the lights' power over area, as r, g, b with a factor of 1.
+// The pairs' values but for the lights' power over area, as r, g, b with the share of them that is
+// gathered as the factor.
 void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane, const g::LightBlock& block,
                     PairScratch* pairs) {
+  const g::PointStrip& strip = tile.strips[stripIndex];
   for (size_t i = 0; i < pairs->count; ++i) {
-    Vf(1.f).store(pairs->factor[i].v);
+    Vf factor(1.f);
+    if (strip.near) {
+      const Vf d2 =
+          squaredDistance(broadcast(block.lights[pairs->light[i]].p), load(strip.p, lane));
+      factor = gatheredShare(strip, lane, sqrt(d2));
+    }
+    factor.store(pairs->factor[i].v);
     for (float* sum : {pairs->r[i].v, pairs->g[i].v, pairs->b[i].v}) Vf(0.f).store(sum);
   }
   if (block.sphereShading.sampling != SphereShading::Sampling::product) {
@@ -458,7 +466,7 @@ void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane, const g
       }
     return;
   }
-  SphereSamples samples(tile, tile.strips[stripIndex], lane, block, pairs);
+  SphereSamples samples(tile, strip, lane, block, pairs);
   for (size_t i = 0; i < pairs->count; ++i) {
     const uint32_t light = pairs->light[i];
     const SphereView view(tile, stripIndex, lane, block.lights[light], *block.spheres[light],

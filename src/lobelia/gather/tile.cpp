@@ -36,6 +36,10 @@ void setPoint(const Receivers& receivers, size_t index, int lane, PointStrip* st
   strip->base.set(lane, perturbed ? point.baseNormal : point.frame.n);
   strip->bumpAlpha2[lane] = point.bumpAlpha2;
   strip->perturbed = strip->perturbed || perturbed;
+  const float nearest = 0.5f * point.nearDistance;
+  strip->nearScale[lane] = nearest > 0 ? 1 / nearest : 1e30f;
+  strip->squaredNear[lane] = nearest * nearest;
+  strip->near = strip->near || nearest > 0;
   const Vec3f wo = point.frame.toLocal(point.wo);
   strip->wo.set(lane, wo);
   strip->front.set(lane, offsetOrigin(point.p, point.ng, point.error, point.ng));

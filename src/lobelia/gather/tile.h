@@ -38,7 +38,12 @@ struct PointStrip {
   StripV3 base;  // normal before bump maps; n where there are none
   alignas(64) float bumpAlpha2[kStrip];
   bool perturbed = false;  // any lane
-  StripV3 wo;              // in the frame (s, t, n)
+  // gatheredShare() of a light at distance d is d * nearScale - 1, cut to [0,1]: 0 up to the
+  // square root of squaredNear.
+  alignas(64) float nearScale[kStrip];
+  alignas(64) float squaredNear[kStrip];
+  bool near = false;  // any lane: where it is false, all lights count whole
+  StripV3 wo;         // in the frame (s, t, n)
   StripV3 ng;
   StripV3 front, back;              // origins of rays that leave on the side of ng, on the other
   alignas(64) float above[kStrip];  // 1 where light from the side of n can be scattered to wo

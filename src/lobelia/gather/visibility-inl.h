@@ -194,7 +194,7 @@ class VisiblePairs {
     for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
       const V3<Vf> d = toLight<kClass>(light, load(strip.p, lane));
       const Mf mask = lightFaces<kClass>(light, d) & receiverFaces(strip, lane, d) &
-                      maskFromBits(candidates >> lane);
+                      beyondNear<kClass>(strip, lane, d) & maskFromBits(candidates >> lane);
       if (!any(mask)) continue;
       if (pairs_.traced != nullptr) {
         (*pairs_.traced)[l * pairs_.strips + s] |= static_cast<uint16_t>(maskBits(mask) << lane);

@@ -4,7 +4,9 @@
 // lobe. Reading from the eye, S* R is the way to the first receiver. From a receiver light arrives
 //  - straight from an emitter: next-event estimation and a sample of the rough lobes, weighted by
 //    the power heuristic [Veach97 9.2];
-//  - from a surface that scatters by R there: a virtual light, left to the gather;
+//  - from a surface that scatters by R there: a virtual light, left to the gather, but for the
+//  share
+//    of what is near (below);
 //  - from a surface that scatters by S there: a specular connection. The receiver's one sample of
 //    its rough lobes goes on from a surface that has sharp lobes, by these only, S+, to an emitter
 //    or to the next R: a further receiver of the pixel, to which all this applies again.
@@ -15,6 +17,15 @@
 // A vertex with both kinds of lobes is a receiver AND continues the chain. Branches are thinned by
 // Russian roulette on their weight in the pixel, tracing (cheap) later than receivers, each of
 // which costs a gather over all lights.
+//
+// Near surfaces. A sum over lights is a poor estimate of light from surface so near that only few
+// of them lie there: a spike 1/d^2 from point lights, a blur from spheres. The gather leaves out
+// the share 1 - gatheredShare(d) of every light at distance d, and a receiver's samples of its
+// rough lobes, traced for connections anyway, have that share of what leaves the surface that they
+// meet: it becomes a further receiver, to which all this applies again. The two shares are one for
+// any nearDistance, which may differ from receiver to receiver. [Davidovic10] splits light between
+// global and local virtual lights by the clamp instead, and makes the local ones anew for each
+// tile of the picture.
 #include "lobelia/path/receiver_walk.h"
 
 #include "lobelia/bsdf/lobe_kind.h"
@@ -26,6 +37,11 @@ namespace {
 // lobes at every vertex at most 1 / threshold branches live at a time.
 constexpr float kRayThreshold = 0.05f;
 constexpr float kReceiverThreshold = 0.25f;
+
+// Of light from p, what the receiver at the segment's start leaves to its own samples.
+float shareOfSamples(const EyeSegment& segment, Vec3f p) {
+  return 1 - gatheredShare(length(p - segment.origin.p), segment.nearDistance);
+}
 
 bool inSet(const Lobe& lobe, LobeSet set) {
   return (static_cast<int>(set) & static_cast<int>(lobe.sharp ? LobeSet::sharp : LobeSet::rough)) !=
@@ -127,7 +143,8 @@ void EyeWalk::step(EyeSegment segment, State* state) const {
   }
   const bool sharp = hasLobes(v.bsdf, LobeSet::sharp);
   if (segment.kind == EyeSegment::Kind::receiver) {
-    if (!sharp) return;  // what comes from here is the virtual lights' part
+    if (hasLobes(v.bsdf, LobeSet::rough)) receiveNear(segment, v, state);
+    if (!sharp) return;  // what else comes from here is the virtual lights' part
     ++state->counts->specularConnections;
   } else if (hasLobes(v.bsdf, LobeSet::rough)) {
     receive(segment, v, state);
@@ -138,12 +155,14 @@ void EyeWalk::step(EyeSegment segment, State* state) const {
 void EyeWalk::addEmission(const EyeSegment& segment, const SurfacePoint* hit, Rgb radiance,
                           State* state) const {
   if (segment.depth == 0 && settings_.hideEmitters) return;
-  // Without direct samples the emitters themselves are virtual lights to receivers.
-  if (segment.kind == EyeSegment::Kind::receiver && settings_.directSamples == 0) return;
-  if (radiance == Rgb(0.f)) return;
-  const float weight = segment.pdf > 0 ? emissionWeight(emitters_, segment.origin, hit,
-                                                        segment.ray.d, segment.pdf, false)
-                                       : 1;
+  float weight = 1;
+  if (segment.kind == EyeSegment::Kind::receiver && settings_.directSamples == 0) {
+    // Without direct samples the emitters themselves are virtual lights to receivers.
+    weight = hit ? shareOfSamples(segment, hit->p) : 0;
+  } else if (segment.pdf > 0) {
+    weight = emissionWeight(emitters_, segment.origin, hit, segment.ray.d, segment.pdf, false);
+  }
+  if (radiance == Rgb(0.f) || weight == 0) return;
   if (byGroup_)
     emitters_.addByGroup(hit ? hit->emitter.index : EmitterSampler::kEscaped, segment.ray.d,
                          radiance * weight, state->arrived.data());
@@ -190,19 +209,35 @@ void EyeWalk::receive(const EyeSegment& segment, const Vertex& v, State* state) 
   EyeSegment next;
   next.kind = EyeSegment::Kind::receiver;
   next.direct = segment.kind == EyeSegment::Kind::eye;
-  next.connection = !next.direct;
-  const Rgb light = nextEvent(v, LobeSet::rough, settings_.directSamples, state);
+  next.connection = segment.connection;
+  if (settings_.nearDistance) next.nearDistance = settings_.nearDistance(v.at.p);
+  // One of many that a near receiver is.
+  const bool many = segment.kind != EyeSegment::Kind::receiver;
+  const int direct = many ? settings_.directSamples : std::min(settings_.directSamples, 1);
+  const Rgb light = nextEvent(v, LobeSet::rough, direct, state);
   addLight(next, segment.throughput * light, segment.throughput, state);
-  if (mayEnd(v.depth + 2) || settings_.directSamples == 0) record(segment, v, state);
+  if (mayEnd(v.depth + 2) || settings_.directSamples == 0)
+    record(segment, v, next.nearDistance, state);
   // The mean of several samples: connections are few and bright. Their weights against the emitter
   // samples stay those of one sample each; they still sum to one.
-  const int count = std::max(settings_.connectionSamples, 1);
+  const int count = many ? std::max(settings_.connectionSamples, 1) : 1;
   EyeSegment from = segment;
   from.throughput /= static_cast<float>(count);
   for (int i = 0; i < count; ++i) scatter(from, v, LobeSet::rough, next, state);
 }
 
-void EyeWalk::record(const EyeSegment& segment, const Vertex& v, State* state) const {
+// The share of what leaves v that the gather of the receiver at the segment's start leaves out.
+void EyeWalk::receiveNear(EyeSegment segment, const Vertex& v, State* state) const {
+  segment.throughput *= shareOfSamples(segment, v.at.p);
+  if (segment.throughput == Rgb(0.f)) return;
+  const float survival = std::min(1.f, importance(segment) / kReceiverThreshold);
+  if (!(state->random.next1D() < survival)) return;
+  segment.throughput /= survival;
+  receive(segment, v, state);
+}
+
+void EyeWalk::record(const EyeSegment& segment, const Vertex& v, float nearDistance,
+                     State* state) const {
   const float survival = std::min(1.f, importance(segment) / kReceiverThreshold);
   if (!(state->random.next1D() < survival)) return;
   ReceiverPoint r;
@@ -215,6 +250,7 @@ void EyeWalk::record(const EyeSegment& segment, const Vertex& v, State* state) c
   r.pixel = state->pixel;
   r.depth = static_cast<uint8_t>(v.depth);
   r.primary = segment.kind == EyeSegment::Kind::eye;
+  r.nearDistance = nearDistance;
   // One for the lobes of every frame.
   std::vector<Lobe>& lobes = state->receivers->lobes;
   for (int f = 0; f < v.bsdf.frameCount; ++f) {

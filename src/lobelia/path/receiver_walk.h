@@ -45,6 +45,7 @@ struct EyeSegment {
   // For the weight against next-event estimation at its start; pdf 0: there was none.
   LightQuery origin;
   float pdf = 0;
+  float nearDistance = 0;  // of the receiver at its start
 };
 
 class EyeWalk {
@@ -67,9 +68,11 @@ class EyeWalk {
   // times `factor` is `light`.
   void addLight(const EyeSegment& segment, Rgb light, Rgb factor, State* state) const;
   void receive(const EyeSegment& segment, const Vertex& vertex, State* state) const;
+  void receiveNear(EyeSegment segment, const Vertex& vertex, State* state) const;
   void extend(const EyeSegment& segment, const Vertex& vertex, State* state) const;
   Rgb nextEvent(const Vertex& vertex, LobeSet set, int sampleCount, State* state) const;
-  void record(const EyeSegment& segment, const Vertex& vertex, State* state) const;
+  void record(const EyeSegment& segment, const Vertex& vertex, float nearDistance,
+              State* state) const;
   // Queues what sample(bsdf, set) finds; kind and the flags are the caller's.
   void scatter(const EyeSegment& from, const Vertex& vertex, LobeSet set, EyeSegment next,
                State* state) const;

@@ -3,7 +3,14 @@
 // An eye path runs through sharp lobes until it meets rough ones: that point is a receiver. From a
 // receiver one BSDF sample of the rough lobes goes on only if the next surface has sharp lobes; it
 // follows them to an emitter (a specular connection) or to a further receiver of the same pixel.
+//
+// Where virtual lights are too sparse (EyeSettings::nearDistance) the gather leaves out what is
+// near a receiver, and the samples of its rough lobes find it: a rough surface that they meet
+// nearby is a further receiver.
 #pragma once
+
+#include <algorithm>
+#include <functional>
 
 #include "lobelia/bsdf/lobe.h"
 #include "lobelia/path/path_tracer.h"
@@ -24,9 +31,16 @@ struct ReceiverPoint {
   uint32_t pixel = 0;  // index into the data window
   uint32_t firstLobe = 0;
   uint8_t lobeCount = 0;
-  uint8_t depth = 1;    // edges from the camera (Mitsuba's depth of this vertex)
-  bool primary = true;  // first receiver of its eye path: its emitter light is "direct"
+  uint8_t depth = 1;       // edges from the camera (Mitsuba's depth of this vertex)
+  bool primary = true;     // first receiver of its eye path: its emitter light is "direct"
+  float nearDistance = 0;  // lights nearer count by gatheredShare() only
 };
+
+// Share of a light on a surface that a receiver at this distance gathers; it finds the rest by its
+// own samples. Exactly 0 up to half of nearDistance, 1 from nearDistance (0: all of it) on.
+inline float gatheredShare(float distance, float nearDistance) {
+  return nearDistance > 0 ? std::clamp(2 * distance / nearDistance - 1, 0.f, 1.f) : 1.f;
+}
 
 struct Receivers {
   std::vector<ReceiverPoint> points;  // in tile order: neighbours in the array are near on screen
@@ -46,6 +60,8 @@ struct EyeSettings {
   bool hideEmitters = false;
   Component component = Component::all;  // what the layers of light groups hold
   PixelSet pixels;
+  // ReceiverPoint::nearDistance of a receiver here; empty: 0.
+  std::function<float(Vec3f)> nearDistance;
 };
 
 // One sample of every pixel of the rows [y0, y1) of the data window (or of the chosen pixels in
