@@ -62,7 +62,7 @@ TEST_F(BaselinesRender, StochasticLightcuts) {
     EXPECT_LT(error, 0.75 * before) << nodes;
     EXPECT_NEAR(compare(film, all).meanRatio, 1, 0.05) << nodes;
     before = error;
-    EXPECT_LE(statistics(name)["counts"]["cut_nodes_per_pixel"], 1.1 * nodes)
+    EXPECT_LE(statistics(name)["counts"]["cut_nodes_per_pixel"], 1.2 * nodes)
         << "some pixels have more than one receiver";
   }
 }
@@ -104,7 +104,7 @@ TEST_F(BaselinesRender, RichVplsOfFaintLightAreFinite) {
 }
 
 TEST_F(BaselinesRender, RichVpls) {
-  const Film all = render(kBase, "all");
+  const Film all = render(kBase + "--near-lights 0", "all");
   for (const std::string form : {"cube --richvpl-texels 32", "vmf"}) {
     double before = 0.05;
     for (const int lights : {60, 300, 1400}) {
@@ -173,28 +173,30 @@ TEST_F(BaselinesRender, GoWithOtherOptions) {
   const std::string base = "--size 8x6 --spp 2 --num-lights 100 --clamp 1 --gather ";
   const std::string lightcuts = "lightcuts --threshold 0 --cut-size 3000";
   const std::string stochastic = "stochastic --cut-size 3000", slices = "lightslice --columns 3000";
+  const std::string near = " --near-lights 0";  // which places do not combine with
   const std::string rich = "all --lights richvpl --richvpl-lights 3000";  // a place for each light
   const std::string whole = "illumcut --threshold 0", mdlc = "mdlc --threshold 0 --cut-size 9000";
-  for (const auto& [strategy, part] : {std::pair{lightcuts, "--crop 2,1,6,5"},
-                                       std::pair{slices, "--pixels 15"},
-                                       std::pair{stochastic, "--passes 2"},
-                                       std::pair{lightcuts, "--direct lights"},
-                                       std::pair{stochastic, "--max-depth 3"},
-                                       std::pair{slices, "--aov groups,types,cost"},
-                                       std::pair{lightcuts, "--lights vpl"},
-                                       std::pair{whole, "--crop 2,1,6,5"},
-                                       std::pair{whole, "--direct lights --pixels 15"},
-                                       std::pair{whole, "--max-depth 3"},
-                                       std::pair{mdlc, "--passes 1 --crop 2,1,6,5"},
-                                       std::pair{mdlc, "--passes 1 --pixels 15"},
-                                       std::pair{mdlc, "--passes 2 --direct lights"},
-                                       std::pair{mdlc, "--passes 1 --max-depth 3"},
-                                       std::pair{mdlc, "--passes 1 --aov groups,types,cost"},
-                                       std::pair{rich, "--crop 2,1,6,5"},
-                                       std::pair{rich, "--pixels 15 --passes 2"},
-                                       std::pair{rich, "--direct lights"},
-                                       std::pair{rich, "--max-depth 3"},
-                                       std::pair{rich, "--aov groups,types,cost"}}) {
+  for (const auto& [strategy, part] : std::initializer_list<std::pair<std::string, std::string>>{
+           {lightcuts, "--crop 2,1,6,5"},
+           {slices, "--pixels 15"},
+           {stochastic, "--passes 2"},
+           {lightcuts, "--direct lights"},
+           {stochastic, "--max-depth 3"},
+           {slices, "--aov groups,types,cost"},
+           {lightcuts, "--lights vpl"},
+           {whole, "--crop 2,1,6,5"},
+           {whole, "--direct lights --pixels 15"},
+           {whole, "--max-depth 3"},
+           {mdlc, "--passes 1 --crop 2,1,6,5"},
+           {mdlc, "--passes 1 --pixels 15"},
+           {mdlc, "--passes 2 --direct lights"},
+           {mdlc, "--passes 1 --max-depth 3"},
+           {mdlc, "--passes 1 --aov groups,types,cost"},
+           {rich, "--crop 2,1,6,5" + near},
+           {rich, "--pixels 15 --passes 2" + near},
+           {rich, "--direct lights" + near},
+           {rich, "--max-depth 3" + near},
+           {rich, "--aov groups,types,cost" + near}}) {
     const Film all = render(base + "all " + part, "all"),
                some = render(base + strategy + " " + part, "some");
     EXPECT_EQ(some.alpha, all.alpha) << part;

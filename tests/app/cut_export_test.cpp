@@ -244,7 +244,7 @@ Gathered expectCuts(const std::vector<Tree>& trees, const std::map<std::string, 
 }
 
 TEST_F(CutExport, OfSharedAndOwnCuts) {
-  const std::string base = "--size 12x9 --crop 1,2,11,9 --spp 1 --direct lights ";
+  const std::string base = "--size 12x9 --crop 1,2,11,9 --spp 1 --direct lights --near-lights 0 ";
   std::optional<size_t> othersBefore;
   for (const std::string& options :
        {base + "--num-lights 300 --gather sglc --cut-size 30",

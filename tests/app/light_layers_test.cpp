@@ -194,9 +194,11 @@ TEST_F(LightLayers, TypesSumToWhatWasGathered) {
                        (folder_ / "x.exr"))
                 .exitCode,
             2);
-  // Without direct lights, emission and connections the indirect layer is the sum.
+  // Without direct lights (of near receivers, too), emission and connections the indirect layer is
+  // the sum.
   const Film indirect = render("all.xml",
                                "--spp 2 --num-lights 64 --specular-limit 0 --component indirect "
+                               "--near-lights 0 "
                                "--aov types,indirect,specular");
   std::vector<std::string> parts = types;
   parts.push_back("specular");
@@ -208,10 +210,11 @@ TEST_F(LightLayers, TypesOfSphericalLights) {
   for (const char* gather : {"all", "mrcs", "sglc", "sglc --sglc-mode paper", "lightslice",
                              "lightcuts", "mdlc --passes 1", "stochastic", "illumcut"}) {
     SCOPED_TRACE(gather);
-    const Film film = render("all.xml",
-                             "--lights vsl --spp 2 --num-lights 500 --specular-limit 0 --component "
-                             "indirect --aov types,groups,indirect,specular,cost --gather " +
-                                 std::string(gather));
+    const Film film =
+        render("all.xml",
+               "--lights vsl --spp 2 --num-lights 500 --specular-limit 0 --component "
+               "indirect --near-lights 0 --aov types,groups,indirect,specular,cost --gather " +
+                   std::string(gather));
     EXPECT_GT(meanOf(film, "vd"), 0);
     EXPECT_GT(meanOf(film, "vs"), 0);
     EXPECT_EQ(meanOf(film, "dd"), 0);

@@ -17,6 +17,7 @@ namespace {
 
 RenderOptions renderOptions(const BenchOptions& options, const BenchScene::Defaults& defaults) {
   RenderOptions out;
+  out.nearLights = 0;  // the light of the lights alone is what studies compare
   out.scene = options.scene;
   if (out.scene.scene.empty()) out.scene.scene = defaults.scene;
   out.size = options.size;

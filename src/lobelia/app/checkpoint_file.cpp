@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "lobelia/app/gather_options.h"
+#include "lobelia/app/light_sets.h"
 #include "lobelia/base/file.h"
 #include "lobelia/gather/simd_target.h"
 #include "lobelia/version.h"
@@ -19,14 +20,26 @@ namespace {
 constexpr const char* kKind = "checkpoint";
 constexpr uint32_t kFileVersion = 3;
 constexpr const char* kFirstBad = "first_nonfinite_pixel";  // a value among the counters
-constexpr const char* kCounters[] = {
-    "path_rays",          "shadow_rays",       "nonfinite",
-    "light_particles",    "lights_dropped",    "paths_cut",
-    "node_pairs_visited", "node_pairs_shaded", "specular_connections",
-    "cut_lights",         "receiver_clusters", "clustered_receivers",
-    "clustered_lights",   "dominant_lights",   "dominant_comparisons",
-    "rich_lights",        "rich_bytes",        "shared_rays",
-    "error_missed"};
+constexpr const char* kCounters[] = {"path_rays",
+                                     "shadow_rays",
+                                     "nonfinite",
+                                     "light_particles",
+                                     "lights_dropped",
+                                     "paths_cut",
+                                     "node_pairs_visited",
+                                     "node_pairs_shaded",
+                                     "specular_connections",
+                                     "near_receivers",
+                                     "cut_lights",
+                                     "receiver_clusters",
+                                     "clustered_receivers",
+                                     "clustered_lights",
+                                     "dominant_lights",
+                                     "dominant_comparisons",
+                                     "rich_lights",
+                                     "rich_bytes",
+                                     "shared_rays",
+                                     "error_missed"};
 
 constexpr int64_t kSaveTimes = 10;  // between two saves passes so often the time of one,
 constexpr int64_t kLongestWait = 60'000'000'000;  // nanoseconds; but no longer than this
@@ -180,7 +193,7 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
   s.emplace_back("--passes", std::to_string(o.passes));
   s.emplace_back("--direct", o.direct);
   s.emplace_back("--clamp", o.clamp);
-  s.emplace_back("--near-lights", fmt::format("{}", o.nearLights));
+  s.emplace_back("--near-lights", fmt::format("{}", nearLightsOf(o)));
   s.emplace_back("--compensate", o.compensate ? "yes" : "no");
   if (o.lights == "photon") {
     s.emplace_back("--photons-nearest", std::to_string(o.photonsNearest));

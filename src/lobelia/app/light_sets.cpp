@@ -52,11 +52,21 @@ LightCounts countLights(const VirtualLights& lights) {
   return counts;
 }
 
+bool combinesWithNearLights(const RenderOptions& options) {
+  return options.lights == "vpl" || options.lights == "glossy" || options.lights == "vsl";
+}
+
+float nearLightsOf(const RenderOptions& options) {
+  if (options.nearLights >= 0) return options.nearLights;
+  return combinesWithNearLights(options) && !options.compensate ? 4.f : 0.f;
+}
+
 std::function<float(Vec3f)> nearDistanceOf(const VirtualLights& lights,
                                            const RenderOptions& options) {
-  if (!(options.nearLights > 0)) return {};
+  const float count = nearLightsOf(options);
+  if (!(count > 0)) return {};
   const auto spacing = std::make_shared<const LightSpacing>(lights);
-  return [spacing, count = options.nearLights](Vec3f p) { return spacing->distance(p, count); };
+  return [spacing, count](Vec3f p) { return spacing->distance(p, count); };
 }
 
 LightParts splitLights(VirtualLights lights) {

@@ -31,6 +31,9 @@ LightSettings lightSettings(const RenderOptions& options, int maxDepth, int set)
 VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters, int maxDepth,
                            int set, const RenderOptions& options, Context& context);
 LightParts splitLights(VirtualLights lights);
+// May receivers find near light by rays of their own? --near-lights with its default filled in.
+bool combinesWithNearLights(const RenderOptions& options);
+float nearLightsOf(const RenderOptions& options);
 // EyeSettings::nearDistance where these are the lights of bounces (--near-lights).
 std::function<float(Vec3f)> nearDistanceOf(const VirtualLights& lights,
                                            const RenderOptions& options);

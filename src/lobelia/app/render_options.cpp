@@ -266,10 +266,10 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("X");
   c.add_option("--near-lights", o.nearLights,
                "With vpl, glossy and vsl: receivers find by rays of their own what is so near that "
-               "fewer than about N virtual lights lie there; 0: nothing")
+               "about N virtual lights lie there, or fewer; 0: nothing; default: 4, with "
+               "--compensate 0")
       ->type_name("N")
-      ->check(finiteNumber(0, 1e6))
-      ->capture_default_str();
+      ->check(finiteNumber(0, 1e6));
   c.add_flag("--compensate", o.compensate,
              "With vpl and glossy lights: path-trace what clamp and lights leave out");
   c.add_option("--photons-nearest", o.photonsNearest,

@@ -59,8 +59,8 @@ struct RenderOptions {
   std::string sphereIndicator = "planar", sphereSampling = "product";
   int sphereSamples = 16;
   float specularLimit = 0.08f;
-  float nearLights = 0;  // within how many lights' reach receivers find light by rays
-  std::string clamp;     // "": the method's default
+  float nearLights = -1;  // that lie where receivers find light by rays; below 0: the default
+  std::string clamp;      // "": the method's default
   bool compensate = false;
   std::string component = "all";
   uint64_t seed = 0;

@@ -92,7 +92,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"mode", options.gather == "sglc" && gathers ? cutModeOf(options) : ""},
                     {"bound", pairs ? boundOf(options) : ""},
                     {"threshold", bounded ? thresholdOf(options) : 0},
-                    {"error", options.error}};
+                    {"error", options.error},
+                    {"near_lights", gathers ? nearLightsOf(options) : 0.f}};
   if (const ReductionReport& r = report.reduction; r.sets > 0) {
     json["gather"]["rows"] = r.rows;
     json["gather"]["columns"] = ratio(static_cast<double>(r.columns), static_cast<double>(r.sets));
@@ -125,6 +126,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"lights_per_light_node", lightsPerNode(report, s)},
                     {"pixels_per_pixel_node", pointsPerCluster(report, s)},
                     {"specular_connections", s.count("specular_connections")},
+                    {"near_receivers", s.count("near_receivers")},
                     {"paths_cut", s.count("paths_cut")},
                     {"nonfinite", s.count("nonfinite") + countNonFinite(film)}};
   json["memory"] = {{"peak_bytes", peakBytes()},

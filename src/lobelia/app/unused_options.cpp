@@ -24,8 +24,8 @@ bool writes(const RenderOptions& options, const char* extension) {
 }
 
 // Options of virtual lights alone; --save-lights and --load-lights are errors without them.
-constexpr const char* kOfVirtualLights[] = {"--gather",     "--num-lights", "--passes",
-                                            "--env-lights", "--direct",     "--clamp"};
+constexpr const char* kOfVirtualLights[] = {
+    "--gather", "--num-lights", "--passes", "--env-lights", "--direct", "--clamp", "--near-lights"};
 
 }  // namespace
 

@@ -233,6 +233,7 @@ void EyeWalk::receiveNear(EyeSegment segment, const Vertex& v, State* state) con
   const float survival = std::min(1.f, importance(segment) / kReceiverThreshold);
   if (!(state->random.next1D() < survival)) return;
   segment.throughput /= survival;
+  ++state->counts->nearReceivers;
   receive(segment, v, state);
 }
 

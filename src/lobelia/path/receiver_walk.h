@@ -25,7 +25,8 @@ struct EyeSample {
 };
 
 struct EyeCounts {
-  uint64_t pathRays = 0, shadowRays = 0, specularConnections = 0, cut = 0, nonFinite = 0;
+  uint64_t pathRays = 0, shadowRays = 0, specularConnections = 0, nearReceivers = 0, cut = 0,
+           nonFinite = 0;
 };
 
 // A ray on its way, with what must be known of its start.

@@ -178,12 +178,14 @@ Receivers traceReceivers(const Tracer& tracer, const EmitterSampler& emitters, c
   for (const Tile& tile : tiles) {
     total.pathRays += tile.counts.pathRays, total.shadowRays += tile.counts.shadowRays;
     total.specularConnections += tile.counts.specularConnections;
+    total.nearReceivers += tile.counts.nearReceivers;
     total.cut += tile.counts.cut, total.nonFinite += tile.counts.nonFinite;
     firstBad = std::min(firstBad, tile.firstBad);
   }
   context.statistics.addCount("path_rays", total.pathRays);
   context.statistics.addCount("shadow_rays", total.shadowRays);
   context.statistics.addCount("specular_connections", total.specularConnections);
+  context.statistics.addCount("near_receivers", total.nearReceivers);
   context.statistics.addCount("paths_cut", total.cut);
   context.statistics.addCount("nonfinite", total.nonFinite);
   if (firstBad != kNoPixel) noteNonFinitePixel(firstBad, context);
