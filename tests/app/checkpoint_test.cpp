@@ -165,6 +165,25 @@ INSTANTIATE_TEST_SUITE_P(
                            "--aov direct,indirect,variance,groups,cost"}),
     [](const auto& param) { return std::string(param.param.name); });
 
+TEST(CheckpointFile, AnotherFileIsNotReplaced) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "notes.txt", text = "what this is about, in many words";
+  const std::string made = std::string(kScene) + "--size 8x8 --spp 1 --num-lights 50 -o " +
+                           (folder / "a.exr") + " --checkpoint ";
+  test::writeText(file, text);
+  const ProgramResult r = runProgram(made + file);
+  EXPECT_EQ(r.exitCode, 3) << r.err;
+  EXPECT_NE(r.err.find("no checkpoint"), std::string::npos) << r.err;
+  EXPECT_EQ(test::readText(file), text);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
+  // Of a checkpoint it makes a new one, of an empty file one.
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(runProgram(made + (folder / "checkpoint")).exitCode, 0);
+    test::writeText(folder / "checkpoint2", "");
+    EXPECT_EQ(runProgram(made + (folder / "checkpoint2")).exitCode, 0);
+  }
+}
+
 TEST(CheckpointFile, OfOtherSphericalLightsIsRefused) {
   const TemporaryFolder folder;
   const std::string file = folder / "checkpoint", out = " -o " + (folder / "a.exr");
@@ -241,7 +260,7 @@ TEST(CheckpointFile, OfAnotherRenderIsRefusedAndSaysWhy) {
   expectRefused(made, "version 99");
   test::writeText(file, "not a checkpoint");
   expectRefused(made, "not a Lobelia data file");
-  // --checkpoint starts afresh over whatever is there.
+  std::filesystem::remove(file);
   EXPECT_EQ(runProgram(made + " --checkpoint " + file + out).exitCode, 0);
   EXPECT_EQ(runProgram(made + " --resume " + file + " --checkpoint " + file + out).exitCode, 2);
 }

@@ -47,6 +47,19 @@ TEST_F(CutsRender, LargerCutsComeNearerToAllLights) {
   EXPECT_LE(statistics("aimed")["gather"]["clusters_missing_error"], 0.1);
 }
 
+TEST_F(CutsRender, AnErrorThatIsMissedIsSaid) {
+  const std::string base =
+      "render box --detail 0.2 --size 32x24 --spp 1 --num-lights 5000 --gather sglc --error 0.001 "
+      "-o " +
+      (folder_ / "a.exr");
+  const test::ProgramResult r = test::runProgram(base + " --cut-size 64");
+  EXPECT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_NE(r.err.find("--error 0.001 is missed by"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("64 nodes"), std::string::npos) << r.err;
+  EXPECT_EQ(test::runProgram(base + " --cut-size 64 --error 0.9").err.find("is missed by"),
+            std::string::npos);
+}
+
 TEST_F(CutsRender, SharedRaysAreFew) {
   const std::string base =
       "--lights glossy --clamp 1 --size 640x480 --crop 240,180,400,300 --spp 1 --num-lights 3000 "

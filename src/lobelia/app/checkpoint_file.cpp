@@ -212,8 +212,15 @@ CheckpointFile::CheckpointFile(std::string file, RenderIdentity identity, double
       interval_(static_cast<int64_t>(std::min(interval, 1e9) * 1e9)),
       context_(context),
       due_(nanosecondsNow() + interval_) {
-  if (!resume) return;
-  if (std::filesystem::exists(file_)) {
+  const bool exists = std::filesystem::exists(file_);
+  if (!resume) {
+    if (exists && std::filesystem::file_size(file_) > 0 && store::kindOf(file_) != kKind)
+      throw InputError({file_},
+                       "is there and no checkpoint, which --checkpoint would replace; "
+                       "name another file, or remove this one");
+    return;
+  }
+  if (exists) {
     open();
   } else {
     context.info(fmt::format("no checkpoint {} yet: starting afresh", file_));

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "lobelia/app/light_reduction.h"
+#include "lobelia/app/render_frame.h"
 #include "lobelia/base/error.h"
 #include "lobelia/gather/gather_cuts.h"
 #include "lobelia/gather/gather_pairs.h"
@@ -90,9 +91,14 @@ void requireGather(const RenderOptions& options) {
         Owned{"--sglc-share", {"sglc"}, !options.shared.empty()},
         Owned{"--sglc-children", {"sglc"}, !options.children.empty()}}) {
     if (given &&
-        std::find(strategies.begin(), strategies.end(), options.gather) == strategies.end())
+        std::find(strategies.begin(), strategies.end(), options.gather) == strategies.end()) {
+      if (!usesVirtualLights(options))
+        throw UsageError(fmt::format(
+            "{} is for strategies that gather virtual lights ({}) and --lights {} has none", name,
+            fmt::join(strategies, ", "), options.lights));
       throw UsageError(fmt::format("{} is for --gather {}; --gather {} has no use for it", name,
                                    fmt::join(strategies, ", "), options.gather));
+    }
   }
   requireMode(options);
   requireRadiance(options);

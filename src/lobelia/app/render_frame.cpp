@@ -6,6 +6,7 @@
 
 #include "lobelia/app/checkpoint_file.h"
 #include "lobelia/app/frame_setup.h"
+#include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_layers.h"
 #include "lobelia/app/render_virtual_lights.h"
 #include "lobelia/app/statistics_file.h"
@@ -36,6 +37,20 @@ void setMetadata(Film& film, const Scene& scene, const RenderOptions& options,
   film.metadata["lobelia:seed"] = std::to_string(options.seed);
   film.metadata["lobelia:scene"] = scene.file.empty() ? scene.name : scene.file;
   film.metadata["lobelia:seconds"] = fmt::format("{:.3f}", seconds);
+}
+
+// Cuts as large as they may be that still miss --error.
+void warnOfMissedErrors(const RenderOptions& options, Context& context) {
+  constexpr double kMany = 0.05;  // of the clusters: fewer are creases and edges
+  const double clusters = static_cast<double>(context.statistics.count("receiver_clusters"));
+  const double missed = static_cast<double>(context.statistics.count("error_missed"));
+  if (!(options.error > 0) || !(missed > kMany * clusters)) return;
+  context.warning(fmt::format(
+      "--error {} is missed by {:.0f} % of the clusters of receivers: their cuts have all of the "
+      "{} "
+      "nodes that they may have; {}",
+      options.error, 100 * missed / clusters, cutSizeOf(options),
+      options.cutSize > 0 ? "allow a larger --cut-size" : "more --spp reach it sooner"));
 }
 
 }  // namespace
@@ -91,6 +106,7 @@ void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& cont
   if (const uint64_t bad = countNonFinite(film) + context.statistics.count("nonfinite"); bad > 0) {
     context.warning(fmt::format("{} non-finite values{}", bad, replayHint(film, frame, context)));
   }
+  warnOfMissedErrors(options, context);
   setMetadata(film, scene, options, run.commandLine, context.statistics.seconds("total"));
   if (options.frames > 0) film.metadata["lobelia:frame"] = std::to_string(frame.number);
   writeOutputs(film, options, run.curve, context);

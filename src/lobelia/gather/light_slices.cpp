@@ -38,13 +38,11 @@ void requireMemory(const Rows& rows, size_t lights, size_t sliceRows, uint64_t m
       (columnBytes(rows, 0) + sizeof(uint32_t) + sliceBytes(std::min(sliceRows, rows.rowCount))) *
       lights;
   if (needed <= memory) return;
-  const auto mebibytes = [](uint64_t bytes) {
-    return std::ceil(static_cast<double>(bytes) / (1 << 20));
-  };
+  const auto mebibytes = [](uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
   throw UsageError(fmt::format(
-      "--memory {:.0f} MiB is too little for the light of {} lights in {} slices, which takes "
+      "--memory {:.3g} MiB is too little for the light of {} lights in {} slices, which takes "
       "{:.0f} MiB; allow more, or use fewer --slices or lights, or --gather sglc",
-      mebibytes(memory), lights, rows.rowCount, mebibytes(needed)));
+      mebibytes(memory), lights, rows.rowCount, std::ceil(mebibytes(needed))));
 }
 
 // Receivers slice by slice, each in the order in which they were given.

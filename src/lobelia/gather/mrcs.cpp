@@ -34,7 +34,7 @@ size_t chooseDims(const Rows& rows, size_t lights, const MrcsSettings& settings)
   const size_t dims =
       settings.sketch == MrcsSettings::kChosen ? kFewestDims : static_cast<size_t>(settings.sketch);
   throw UsageError(fmt::format(
-      "--memory {:.0f} MiB is too little for {} of {} lights, which take {:.0f} MiB; allow more{}",
+      "--memory {:.3g} MiB is too little for {} of {} lights, which take {:.0f} MiB; allow more{}",
       megabytes(static_cast<double>(settings.memory)),
       dims == 0 ? std::string("the whole columns") : fmt::format("sketches of {} numbers", dims),
       lights, std::ceil(megabytes(static_cast<double>(needed(dims)))),

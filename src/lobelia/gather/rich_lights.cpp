@@ -15,15 +15,13 @@ namespace {
 void requireMemory(const RichSettings& settings, size_t places) {
   const uint64_t each = RichRadiance::bytesPerLight(settings.form, settings.texels, settings.lobes);
   if (each * places <= settings.memory) return;
-  const auto mebibytes = [](uint64_t bytes) {
-    return std::ceil(static_cast<double>(bytes) / (1 << 20));
-  };
+  const auto mebibytes = [](uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
   const bool cube = settings.form == RichForm::cube;
   throw UsageError(fmt::format(
-      "--memory {:.0f} MiB is too little for {} Rich-VPLs of {} bytes each, which take {:.0f} MiB; "
+      "--memory {:.3g} MiB is too little for {} Rich-VPLs of {} bytes each, which take {:.0f} MiB; "
       "allow more, or use fewer --richvpl-lights or --richvpl-{}{}",
-      mebibytes(settings.memory), places, each, mebibytes(each * places), cube ? "texels" : "lobes",
-      cube ? ", or --richvpl-radiance vmf" : ""));
+      mebibytes(settings.memory), places, each, std::ceil(mebibytes(each * places)),
+      cube ? "texels" : "lobes", cube ? ", or --richvpl-radiance vmf" : ""));
 }
 
 const std::vector<uint32_t>& depthEnds(const VirtualLights& lights, LightClass lightClass) {

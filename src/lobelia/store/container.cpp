@@ -207,6 +207,13 @@ void Writer::save(const std::string& file) const {
   writeFileAtomically(file, parts);
 }
 
+std::string kindOf(const std::string& file) {
+  const std::vector<std::byte> start = readFileStart(file, kHeaderSize);
+  if (start.size() < kHeaderSize || std::memcmp(start.data(), kMagic, sizeof(kMagic)) != 0)
+    return "";
+  return readHeader(file, start).kind;
+}
+
 Reader::Reader(const std::string& file, std::string_view kind, uint32_t version) : file_(file) {
   // The header first: a file that is not ours may be of any size.
   checkHeader(file, readHeader(file, readFileStart(file, kHeaderSize)), kind, version);

@@ -64,6 +64,10 @@ class Reader {
   std::vector<Chunk> chunks_;
 };
 
+// What the file holds, by its header alone; "": it is none of ours. Throws RuntimeError where it
+// cannot be read.
+std::string kindOf(const std::string& file);
+
 // XXH3, 64 bits.
 uint64_t hashBytes(std::span<const std::byte> bytes, uint64_t seed = 0);
 
