@@ -21,6 +21,8 @@ TEST(Error, SuggestsTheNearestName) {
   EXPECT_EQ(suggestion("shpere", known), "; did you mean 'sphere'?");
   EXPECT_EQ(suggestion("rectangel", known), "; did you mean 'rectangle'?");
   EXPECT_EQ(suggestion("roughconductor", known), "; did you mean 'roughConductor'?");
+  EXPECT_EQ(suggestion("sglc", {"sg", "sglc-shared", "sglc-paper"}),
+            "; did you mean 'sglc-shared'?");
   EXPECT_EQ(suggestion("cub", known), "; did you mean 'cube'?");
 }
 

@@ -91,23 +91,6 @@ TEST_F(NearFieldTest, BothPartsAreTheWhole) {
   }
 }
 
-TEST_F(NearFieldTest, SortingKeepsDepthsAndLights) {
-  VirtualLights lights = floor_.lights();
-  sortByPlace(floor_.tracer().bounds(), &lights);
-  ASSERT_EQ(lights.spherical.size(), static_cast<size_t>(kLights));
-  double power = 0, before = 0;
-  Bounds3f first, all;
-  for (size_t i = 0; i < lights.spherical.size(); ++i) {
-    EXPECT_EQ(lights.spherical[i].depth, i < kFirstDepth ? 1 : 2);
-    power += double{lights.spherical[i].power.x};
-    before += double{floor_.lights().spherical[i].power.x};
-    if (i < kBlockLights) first.add(lights.spherical[i].p);
-    all.add(lights.spherical[i].p);
-  }
-  EXPECT_NEAR(power, before, 1e-9);
-  EXPECT_LT(first.radius(), all.radius() / 2) << "a block is compact";
-}
-
 // What stands for all lights beyond the near field, and all lights within: the light of all in the
 // mean, with less noise than without the near field.
 TEST_F(NearFieldTest, RepresentativesBeyondItAreUnbiasedAndLessNoisy) {

@@ -37,7 +37,7 @@ class Trial : public PathTrial {
       lightSettings.directAsLights = setting.direct;
       lights = makeLights(tracer_, emitters_, lightSettings, context_);
     }
-    const LightSpacing spacing(lights);
+    const LightSpacing spacing{{&lights}};
     Film film = filmFor(camera(), {"direct", "indirect"});
     EyeSettings eye;
     eye.sampleCount = 8;
@@ -100,13 +100,19 @@ TEST(NearReceivers, ServeGlossToo) {
   Trial trial(glossyRoom());
   const Mean truth = trial.path(-1);
   expectMean(trial.lights({LightKind::glossy, 60}), truth, 0.02);
-  // Spheres blur; the more is left to the samples, the less.
-  const auto error = [&](float count) {
-    return std::abs(trial.lights({LightKind::spherical, count}).value - truth.value);
-  };
-  const double without = error(0);
-  EXPECT_GT(without, 0.05 * truth.value);
-  EXPECT_LT(error(100), 0.5 * without);
+}
+
+// Spheres are as wide as some of their neighbours are far: their discs reach over what is near and
+// over what is not, and count by the places on them.
+TEST(NearReceivers, TakeOverFromSpheresPlaceByPlace) {
+  Trial trial(boxScene());
+  const Mean truth = trial.path(-1);
+  const Mean without = trial.lights({LightKind::spherical, 0});
+  EXPECT_NEAR(without.value, truth.value, 0.03 * truth.value);
+  for (const float count : {4.f, 100.f})
+    EXPECT_NEAR(trial.lights({LightKind::spherical, count}).value, without.value,
+                0.01 * truth.value)
+        << count;
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ VirtualLights onSquare(size_t count) {
 
 TEST(LightSpacing, HasAboutAsManyLights) {
   const VirtualLights lights = onSquare(30000);
-  const LightSpacing spacing(lights);
+  const LightSpacing spacing({&lights});
   constexpr float kPi = 3.14159265f;
   Rng rng(2);
   for (const float count : {4.f, 30.f, 200.f}) {
@@ -40,11 +40,11 @@ TEST(LightSpacing, HasAboutAsManyLights) {
 }
 
 TEST(LightSpacing, OfFewLightsAndOfNone) {
-  EXPECT_TRUE(std::isinf(LightSpacing(VirtualLights()).distance({0, 0, 0}, 1)));
+  EXPECT_TRUE(std::isinf(LightSpacing({}).distance({0, 0, 0}, 1)));
   VirtualLights lights;
   lights.diffuse.push_back({{3, 0, 4}, Rgb(1.f), 0, 1});
   // One light, which stands for sixteen.
-  EXPECT_FLOAT_EQ(LightSpacing(lights).distance({0, 0, 0}, 4), 2.5f);
+  EXPECT_FLOAT_EQ(LightSpacing({&lights}).distance({0, 0, 0}, 4), 2.5f);
 }
 
 }  // namespace

@@ -214,7 +214,8 @@ CheckpointFile::CheckpointFile(std::string file, RenderIdentity identity, double
       due_(nanosecondsNow() + interval_) {
   const bool exists = std::filesystem::exists(file_);
   if (!resume) {
-    if (exists && std::filesystem::file_size(file_) > 0 && store::kindOf(file_) != kKind)
+    const bool empty = std::filesystem::is_regular_file(file_) && readFileStart(file_, 1).empty();
+    if (exists && !empty && store::kindOf(file_) != kKind)
       throw InputError({file_},
                        "is there and no checkpoint, which --checkpoint would replace; "
                        "name another file, or remove this one");

@@ -61,11 +61,13 @@ float nearLightsOf(const RenderOptions& options) {
   return combinesWithNearLights(options) && !options.compensate ? 4.f : 0.f;
 }
 
-std::function<float(Vec3f)> nearDistanceOf(const VirtualLights& lights,
-                                           const RenderOptions& options) {
+std::function<float(Vec3f)> nearDistanceOf(const LightParts& lights, const RenderOptions& options) {
   const float count = nearLightsOf(options);
-  if (!(count > 0)) return {};
-  const auto spacing = std::make_shared<const LightSpacing>(lights);
+  // Without lights on emitters, direct light is the eye pass's.
+  const bool gathersNone = options.component == "direct" && options.direct != "lights";
+  if (!(count > 0) || gathersNone) return {};
+  const auto spacing = std::make_shared<const LightSpacing>(
+      std::initializer_list<const VirtualLights*>{&lights.direct, &lights.indirect});
   return [spacing, count](Vec3f p) { return spacing->distance(p, count); };
 }
 

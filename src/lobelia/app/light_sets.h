@@ -34,9 +34,8 @@ LightParts splitLights(VirtualLights lights);
 // May receivers find near light by rays of their own? --near-lights with its default filled in.
 bool combinesWithNearLights(const RenderOptions& options);
 float nearLightsOf(const RenderOptions& options);
-// EyeSettings::nearDistance where these are the lights of bounces (--near-lights).
-std::function<float(Vec3f)> nearDistanceOf(const VirtualLights& lights,
-                                           const RenderOptions& options);
+// EyeSettings::nearDistance with these lights (--near-lights).
+std::function<float(Vec3f)> nearDistanceOf(const LightParts& lights, const RenderOptions& options);
 // Samples per pixel with virtual lights.
 int virtualLightSamples(const RenderOptions& options);
 // How many sets the samples of a pixel share, and which of them a sample gathers.

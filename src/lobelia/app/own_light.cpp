@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "lobelia/app/light_sets.h"
+#include "lobelia/app/render_frame.h"
 #include "lobelia/app/sampled_film.h"
 #include "lobelia/base/error.h"
 #include "lobelia/gather/compensation.h"
@@ -53,7 +54,7 @@ void requireOwnLight(const RenderOptions& options) {
       throw UsageError(
           "--near-lights and --compensate both replace what near virtual lights get wrong; leave "
           "out one of them");
-    if (!combinesWithNearLights(options))
+    if (usesVirtualLights(options) && !combinesWithNearLights(options))
       throw UsageError(fmt::format(
           "--near-lights takes over from vpl, glossy and vsl lights; --lights {} does not combine",
           options.lights));

@@ -46,9 +46,8 @@ void warnOfMissedErrors(const RenderOptions& options, Context& context) {
   const double missed = static_cast<double>(context.statistics.count("error_missed"));
   if (!(options.error > 0) || !(missed > kMany * clusters)) return;
   context.warning(fmt::format(
-      "--error {} is missed by {:.0f} % of the clusters of receivers: their cuts have all of the "
-      "{} "
-      "nodes that they may have; {}",
+      "--error {} is missed by {:.0f} % of the clusters of receivers: their cuts have all "
+      "of the {} nodes that they may have; {}",
       options.error, 100 * missed / clusters, cutSizeOf(options),
       options.cutSize > 0 ? "allow a larger --cut-size" : "more --spp reach it sooner"));
 }

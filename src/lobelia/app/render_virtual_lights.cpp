@@ -98,7 +98,7 @@ class VirtualLightRender {
     }
     first_.reset();
     if (context_.cancelled()) return;
-    plan_.eye.nearDistance = nearDistanceOf(parts.indirect, options_);
+    plan_.eye.nearDistance = nearDistanceOf(parts, options_);
     parts = reduceParts(tracer_, emitters_, camera_, plan_, set, std::move(parts), options_,
                         &report_.reduction, context_);
     if (context_.cancelled()) return;

@@ -83,7 +83,7 @@ class LightReplay {
     lights_.reset();
     ReductionReport unused;
     LightParts parts = splitLights(std::move(lights));
-    plan_.eye.nearDistance = nearDistanceOf(parts.indirect, options_);
+    plan_.eye.nearDistance = nearDistanceOf(parts, options_);
     parts = reduceParts(run_.tracer, run_.emitters, camera_, plan_, set, std::move(parts), options_,
                         &unused, context_);
     lights_.emplace(run_.tracer, run_.emitters, camera_, plan_, set, std::move(parts), options_,

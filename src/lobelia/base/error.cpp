@@ -47,9 +47,14 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
   // Names from a corrupt file may be long; none of ours is.
   if (name.empty() || name.size() > 200) return "";
   const std::string* best = nullptr;
+  // The first word of a name, as in 'sglc' for 'sglc-shared', whatever follows.
+  const auto begun = [&](const std::string& candidate) {
+    return candidate.size() > name.size() && candidate.starts_with(name) &&
+           candidate[name.size()] == '-';
+  };
   size_t bestDistance = 0;
   for (const std::string& candidate : known) {
-    const size_t distance = editDistance(name, candidate);
+    const size_t distance = begun(candidate) ? 0 : editDistance(name, candidate);
     if (!best || distance < bestDistance) best = &candidate, bestDistance = distance;
   }
   // Near: up to two fifths of the longer name may differ.

@@ -52,13 +52,14 @@ class Run {
 
 void Run::represent(int lane, CutReceivers* out) const {
   Vec3f p, n;
-  float diffuse = 0, above = 0, below = 0;
+  float diffuse = 0, above = 0, below = 0, nearScale = 0;
   forEach([&](int i, float share) {
     p += share * receivers_.p.get(i);
     n += share * receivers_.n.get(i);
     diffuse += share * receivers_.diffuse[i];
     above = std::max(above, receivers_.above[i]);
     below = std::max(below, receivers_.below[i]);
+    nearScale = std::max(nearScale, receivers_.nearScale[i]);
   });
   n = dot(n, n) > 1e-12f ? normalize(n) : receivers_.n.get(begin_);
   float variance = 0, placeSlack = 0, normalSlack = 0;
@@ -71,6 +72,7 @@ void Run::represent(int lane, CutReceivers* out) const {
   out->p.set(lane, p), out->n.set(lane, n);
   out->above[lane] = above, out->below[lane] = below;
   out->diffuse[lane] = diffuse;
+  out->nearScale[lane] = nearScale;
   out->weight[lane] = weight();
   out->variance[lane] = variance;
   out->placeSlack[lane] = placeSlack, out->normalSlack[lane] = normalSlack;
@@ -91,6 +93,7 @@ CutReceivers cutReceivers(const Tile& tile, const Receivers& receivers) {
   std::copy_n(strip.above, kStrip, out.above);
   std::copy_n(strip.below, kStrip, out.below);
   std::copy_n(tile.sampling[0].diffuse, kStrip, out.diffuse);
+  std::copy_n(strip.nearScale, kStrip, out.nearScale);
   out.gaussianCount = strip.gaussianCount;
   for (size_t i = 0; i < strip.gaussianCount; ++i)
     out.gaussians[i] = tile.gaussians[strip.firstGaussian + i];
@@ -134,6 +137,7 @@ void setLane(const CutReceivers& receivers, int lane, int to, CutReceivers* out)
   out->p.set(to, receivers.p.get(lane)), out->n.set(to, receivers.n.get(lane));
   out->above[to] = receivers.above[lane], out->below[to] = receivers.below[lane];
   out->diffuse[to] = receivers.diffuse[lane];
+  out->nearScale[to] = receivers.nearScale[lane];
   out->weight[to] = receivers.weight[lane];
   out->variance[to] = receivers.variance[lane];
   out->placeSlack[to] = receivers.placeSlack[lane];

@@ -9,10 +9,11 @@ namespace lobelia::gather {
 // One receiver per lane.
 struct CutReceivers {
   StripV3 p, n;
-  alignas(64) float above[kStrip];    // as PointStrip
-  alignas(64) float below[kStrip];    //
-  alignas(64) float diffuse[kStrip];  // as SamplingStrip
-  alignas(64) float weight[kStrip];   // of the receiver in the picture; 0: the lane does not count
+  alignas(64) float above[kStrip];      // as PointStrip
+  alignas(64) float below[kStrip];      //
+  alignas(64) float diffuse[kStrip];    // as SamplingStrip
+  alignas(64) float nearScale[kStrip];  // as PointStrip, of a run the largest
+  alignas(64) float weight[kStrip];  // of the receiver in the picture; 0: the lane does not count
   size_t gaussianCount = 0;
   GaussianStrip gaussians[kSphereGaussians];
   // Where a lane stands for several receivers: the mean square distance of their places to its own,

@@ -56,7 +56,7 @@ HWY_INLINE Mf lightFaces(const g::PreparedLight& light, V3<Vf> d) {
 // Is any part of the light left to the gather?
 template <g::LightClass kClass>
 HWY_INLINE Mf beyondNear(const g::PointStrip& strip, size_t lane, V3<Vf> d) {
-  if (!g::hasNear(kClass) || !strip.near) return Vf(0.f) == Vf(0.f);
+  if (!g::hasShares(kClass) || !strip.near) return Vf(0.f) == Vf(0.f);
   return dot(d, d) > Vf::load(strip.squaredNear + lane);
 }
 

@@ -16,8 +16,11 @@ inline constexpr LightClass kLightClasses[] = {LightClass::omni, LightClass::dir
                                                LightClass::diffuse, LightClass::glossy,
                                                LightClass::spherical};
 
-// Are the class' lights on surfaces, which may be near a receiver (ReceiverPoint::nearDistance)?
-constexpr bool hasNear(LightClass lightClass) { return lightClass >= LightClass::diffuse; }
+// Do receivers gather shares of the class' lights by their distance (ReceiverPoint::nearDistance)?
+// Of spherical ones they do so point by point of their discs.
+constexpr bool hasShares(LightClass lightClass) {
+  return lightClass == LightClass::diffuse || lightClass == LightClass::glossy;
+}
 
 // One record for all classes; a class reads what it has (VirtualLights).
 struct PreparedLight {

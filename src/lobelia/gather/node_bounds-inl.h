@@ -10,6 +10,9 @@
 //   receiver: cosine amplitude * [n.w]+ (diffuse), Gaussian where n.w > 0 (glossy).
 // Colours: trees/bound_node.h.
 //
+// Shares of near lights (ReceiverPoint::nearDistance) are none of it: a pair may be worth less, so
+// upper bounds hold, and lower ones only where nothing is near (--near-lights 0).
+//
 // [P000 section 4.2], corrected: the upper bound takes the smallest angles with the smallest
 // sharpness, the sum of all amplitudes and the smallest distance; the lower bound the opposite of
 // each; lobes' angles reach pi. Our glossy lobes contain their cosine, so that only the side

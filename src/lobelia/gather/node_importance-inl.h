@@ -178,6 +178,12 @@ HWY_INLINE Vf nodeImportance(const NodeLanes& node, const g::CutReceivers& recei
     *relativeVariance =
         min(Vf(kLeastVariance) + wide * (Vf(1.f) + slopes), Vf(1.f)) + among * among * node.count;
   }
+  // gatheredShare(), at most, of a light of the node. Not 0: emitters that are points count whole.
+  constexpr float kLeastShare = 0.02f;
+  const Vf distance = square * inverseRoot + reach;
+  const Vf share =
+      min(max(distance * Vf::load(receivers.nearScale + lane) - Vf(1.f), Vf(kLeastShare)), Vf(1.f));
+  total = total * share;
   const Vf weight = Vf::load(receivers.weight + lane) * scale;
   // Squares neither vanish nor overflow.
   const Vf value = min(max(weight * total * inverse, Vf(1e-18f)), Vf(1e18f));

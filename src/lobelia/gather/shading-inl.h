@@ -66,7 +66,7 @@ void directions(const g::PointStrip& strip, size_t lane, const g::LightBlock& bl
     Vf factor = kClass == g::LightClass::diffuse && block.rich != nullptr
                     ? richFactor(*block.rich, block.index[pairs->light[i]], inverseDistance)
                     : lightFactor<kClass>(light, wi, inverseDistance);
-    if (g::hasNear(kClass) && strip.near)
+    if (g::hasShares(kClass) && strip.near)
       factor = factor * gatheredShare(strip, lane, Vf(1.f) / inverseDistance);
     if (strip.perturbed) {  // bumpShadow() of bsdf/bsdf.h
       const Vf c = dot(load(strip.base, lane), wi), c2 = max(c * c, Vf(1e-20f));

@@ -322,6 +322,7 @@ class SphereView {
     Vf indicator;
     if (planar_) {
       indicator = select(onPlane, weightAt(hit), Vf(0.f));
+      if (strip_.near) indicator = indicator * gatheredShare(strip_, lane_, t);
     } else {
       indicator = select(inCone, max(cosLeave, Vf(0.f)), Vf(0.f));
     }
@@ -442,14 +443,14 @@ class SphereSamples {
   PairScratch::Lanes lX_[g::kBlockLights], lY_[g::kBlockLights], lZ_[g::kBlockLights];
 };
 
-// The pairs' values but for the lights' power over area, as r, g, b with the share of them that is
-// gathered as the factor.
+// The pairs' values but for the lights' power over area, as r, g, b, and a factor.
 void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane, const g::LightBlock& block,
                     PairScratch* pairs) {
   const g::PointStrip& strip = tile.strips[stripIndex];
   for (size_t i = 0; i < pairs->count; ++i) {
     Vf factor(1.f);
-    if (strip.near) {
+    // With the cosine no direction has a place of its own on the disc.
+    if (strip.near && block.sphereShading.indicator == SphereShading::Indicator::cosine) {
       const Vf d2 =
           squaredDistance(broadcast(block.lights[pairs->light[i]].p), load(strip.p, lane));
       factor = gatheredShare(strip, lane, sqrt(d2));

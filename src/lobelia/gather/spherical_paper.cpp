@@ -72,17 +72,20 @@ Rgb leaving(const SpherePair& pair, const Cone& cone, Vec3f l) {
     return leavingRadiance(pair.sphere, -l) * cosLeave;
   }
   if (!(cosLeave > 1e-12f)) return {};
-  const Vec3f hit = l * (std::abs(dot(n, d)) / cosLeave) - d;
+  const float t = std::abs(dot(n, d)) / cosLeave;
+  const Vec3f hit = l * t - d;
   if (lengthSquared(hit) > pair.sphere.squaredRadius) return {};
+  const float share = gatheredShare(t, pair.point.nearDistance);
   if (!pair.sphere.whole) {
     const auto cell = [&](Vec3f axis) {
       const float x = std::floor((dot(hit, axis) / pair.sphere.radius + 1) * (kDiscCells / 2));
       return static_cast<int>(std::clamp(x, 0.f, kDiscCells - 1.f));
     };
     const int index = cell(pair.sphere.disc.t) * kDiscCells + cell(pair.sphere.disc.s);
-    return leavingRadiance(pair.sphere, -l) * pair.sphere.weights[static_cast<size_t>(index)];
+    return leavingRadiance(pair.sphere, -l) *
+           (share * pair.sphere.weights[static_cast<size_t>(index)]);
   }
-  return leavingRadiance(pair.sphere, -l);
+  return leavingRadiance(pair.sphere, -l) * share;
 }
 
 Rgb integrand(const SpherePair& pair, const Cone& cone, Vec3f l) {

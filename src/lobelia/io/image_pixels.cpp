@@ -217,6 +217,7 @@ std::vector<StoredImage> readStoredImages(const std::string& file, bool all, con
   checkRegularFile(file, from);
   constexpr size_t kStart = 1 << 16;  // longer than headers are
   const std::vector<std::byte> start = readFileStart(file, kStart);
+  if (start.empty()) throw InputError({file}, "the file is empty");
   checkExrHeader(start, sizeOf(file), file);
   const std::string format = formatOf(file, start);
   if (format == "png" || format == "jpeg" || format == "bmp") checkHeader(readFile(file), file);

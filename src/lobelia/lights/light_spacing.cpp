@@ -31,25 +31,27 @@ void addPlaces(const std::vector<Light>& lights, size_t* next, std::vector<Vec3f
   *next -= lights.size();
 }
 
-Cloud placesOf(const VirtualLights& lights) {
+Cloud placesOf(std::initializer_list<const VirtualLights*> parts) {
   Cloud cloud;
   size_t next = 0;
-  addPlaces(lights.diffuse, &next, &cloud.points);
-  addPlaces(lights.glossy, &next, &cloud.points);
-  addPlaces(lights.spherical, &next, &cloud.points);
+  for (const VirtualLights* lights : parts) {
+    addPlaces(lights->diffuse, &next, &cloud.points);
+    addPlaces(lights->glossy, &next, &cloud.points);
+    addPlaces(lights->spherical, &next, &cloud.points);
+  }
   return cloud;
 }
 
 }  // namespace
 
 struct LightSpacing::Search {
-  explicit Search(const VirtualLights& lights)
+  explicit Search(std::initializer_list<const VirtualLights*> lights)
       : cloud(placesOf(lights)), tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {}
   const Cloud cloud;
   const Tree tree;
 };
 
-LightSpacing::LightSpacing(const VirtualLights& lights)
+LightSpacing::LightSpacing(std::initializer_list<const VirtualLights*> lights)
     : search_(std::make_unique<Search>(lights)) {}
 LightSpacing::LightSpacing(LightSpacing&&) noexcept = default;
 LightSpacing& LightSpacing::operator=(LightSpacing&&) noexcept = default;

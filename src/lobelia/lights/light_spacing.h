@@ -1,6 +1,7 @@
 // How far apart virtual lights are, anywhere in the scene.
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 
 #include "lobelia/lights/virtual_lights.h"
@@ -10,7 +11,7 @@ namespace lobelia {
 class LightSpacing {
  public:
   // Diffuse, glossy and spherical lights count. The lights need not outlive it.
-  explicit LightSpacing(const VirtualLights& lights);
+  explicit LightSpacing(std::initializer_list<const VirtualLights*> lights);
   LightSpacing(LightSpacing&&) noexcept;
   LightSpacing& operator=(LightSpacing&&) noexcept;
   ~LightSpacing();

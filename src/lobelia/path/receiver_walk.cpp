@@ -4,9 +4,8 @@
 // lobe. Reading from the eye, S* R is the way to the first receiver. From a receiver light arrives
 //  - straight from an emitter: next-event estimation and a sample of the rough lobes, weighted by
 //    the power heuristic [Veach97 9.2];
-//  - from a surface that scatters by R there: a virtual light, left to the gather, but for the
-//  share
-//    of what is near (below);
+//  - from a surface that scatters by R there: a virtual light, left to the gather but for what is
+//    near (below);
 //  - from a surface that scatters by S there: a specular connection. The receiver's one sample of
 //    its rough lobes goes on from a surface that has sharp lobes, by these only, S+, to an emitter
 //    or to the next R: a further receiver of the pixel, to which all this applies again.
@@ -18,14 +17,14 @@
 // Russian roulette on their weight in the pixel, tracing (cheap) later than receivers, each of
 // which costs a gather over all lights.
 //
-// Near surfaces. A sum over lights is a poor estimate of light from surface so near that only few
-// of them lie there: a spike 1/d^2 from point lights, a blur from spheres. The gather leaves out
-// the share 1 - gatheredShare(d) of every light at distance d, and a receiver's samples of its
-// rough lobes, traced for connections anyway, have that share of what leaves the surface that they
-// meet: it becomes a further receiver, to which all this applies again. The two shares are one for
-// any nearDistance, which may differ from receiver to receiver. [Davidovic10] splits light between
-// global and local virtual lights by the clamp instead, and makes the local ones anew for each
-// tile of the picture.
+// Near surfaces. A sum over lights is a poor estimate of the light from a surface so near that only
+// few of them lie there: a spike 1/d^2 from point lights, a blur from spheres. Of all light that
+// leaves a surface at distance d the gather counts gatheredShare(d) only. A receiver's samples of
+// its rough lobes, traced for connections anyway, have the rest: the surface that they meet becomes
+// a further receiver, to which all this applies again. The two shares sum to one for any
+// nearDistance, which may differ from receiver to receiver. [Davidovic10] splits light between
+// global and local virtual lights by the clamp instead, and makes the local ones anew for each tile
+// of the picture.
 #include "lobelia/path/receiver_walk.h"
 
 #include "lobelia/bsdf/lobe_kind.h"
@@ -211,16 +210,16 @@ void EyeWalk::receive(const EyeSegment& segment, const Vertex& v, State* state) 
   next.direct = segment.kind == EyeSegment::Kind::eye;
   next.connection = segment.connection;
   if (settings_.nearDistance) next.nearDistance = settings_.nearDistance(v.at.p);
-  // One of many that a near receiver is.
-  const bool many = segment.kind != EyeSegment::Kind::receiver;
-  const int direct = many ? settings_.directSamples : std::min(settings_.directSamples, 1);
+  // Near receivers are many: one sample of each kind will do.
+  const bool isNear = segment.kind == EyeSegment::Kind::receiver;
+  const int direct = isNear ? std::min(settings_.directSamples, 1) : settings_.directSamples;
   const Rgb light = nextEvent(v, LobeSet::rough, direct, state);
   addLight(next, segment.throughput * light, segment.throughput, state);
   if (mayEnd(v.depth + 2) || settings_.directSamples == 0)
     record(segment, v, next.nearDistance, state);
   // The mean of several samples: connections are few and bright. Their weights against the emitter
   // samples stay those of one sample each; they still sum to one.
-  const int count = many ? std::max(settings_.connectionSamples, 1) : 1;
+  const int count = isNear ? 1 : std::max(settings_.connectionSamples, 1);
   EyeSegment from = segment;
   from.throughput /= static_cast<float>(count);
   for (int i = 0; i < count; ++i) scatter(from, v, LobeSet::rough, next, state);
@@ -233,7 +232,6 @@ void EyeWalk::receiveNear(EyeSegment segment, const Vertex& v, State* state) con
   const float survival = std::min(1.f, importance(segment) / kReceiverThreshold);
   if (!(state->random.next1D() < survival)) return;
   segment.throughput /= survival;
-  ++state->counts->nearReceivers;
   receive(segment, v, state);
 }
 
@@ -265,7 +263,9 @@ void EyeWalk::record(const EyeSegment& segment, const Vertex& v, float nearDista
       lobes.back().frame = 0;
     }
     r.lobeCount = static_cast<uint8_t>(lobes.size() - r.firstLobe);
-    if (r.lobeCount > 0) state->receivers->points.push_back(r);
+    if (r.lobeCount == 0) continue;
+    state->receivers->points.push_back(r);
+    state->counts->nearReceivers += segment.kind == EyeSegment::Kind::receiver;
   }
 }
 

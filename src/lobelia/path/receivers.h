@@ -55,8 +55,10 @@ struct EyeSettings {
   int sampleCount = 1;  // total (for the weight)
   int maxDepth = -1;
   float specularLimit = 0.08f;
-  int directSamples = 4;      // emitter samples per receiver; 0: none (--direct lights)
-  int connectionSamples = 4;  // samples of the rough lobes, per receiver, for specular connections
+  int directSamples = 4;  // emitter samples per receiver (near ones: 1); 0: --direct lights
+  // Samples of the rough lobes, per receiver (near ones: 1), for specular connections and what is
+  // near.
+  int connectionSamples = 4;
   bool hideEmitters = false;
   Component component = Component::all;  // what the layers of light groups hold
   PixelSet pixels;
