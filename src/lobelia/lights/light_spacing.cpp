@@ -4,7 +4,8 @@
 #include "lobelia/lights/light_spacing.h"
 
 #include <limits>
-#include <nanoflann.hpp>
+
+#include "lobelia/lights/place_tree.h"
 
 namespace lobelia {
 namespace {
@@ -12,43 +13,34 @@ namespace {
 constexpr size_t kStep = 16;
 constexpr size_t kNeighbours = 3;
 
-struct Cloud {
-  std::vector<Vec3f> points;
-  size_t kdtree_get_point_count() const { return points.size(); }
-  float kdtree_get_pt(size_t i, size_t axis) const { return points[i][static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
+struct Place {
+  Vec3f p;
 };
-using Tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud, float, uint32_t>,
-                                        Cloud, 3, uint32_t>;
 
 template <class Light>
-void addPlaces(const std::vector<Light>& lights, size_t* next, std::vector<Vec3f>* places) {
-  for (; *next < lights.size(); *next += kStep) places->push_back(lights[*next].p);
+void addPlaces(const std::vector<Light>& lights, size_t* next, std::vector<Place>* places) {
+  for (; *next < lights.size(); *next += kStep) places->push_back({lights[*next].p});
   *next -= lights.size();
 }
 
-Cloud placesOf(std::initializer_list<const VirtualLights*> parts) {
-  Cloud cloud;
+std::vector<Place> placesOf(std::initializer_list<const VirtualLights*> parts) {
+  std::vector<Place> places;
   size_t next = 0;
   for (const VirtualLights* lights : parts) {
-    addPlaces(lights->diffuse, &next, &cloud.points);
-    addPlaces(lights->glossy, &next, &cloud.points);
-    addPlaces(lights->spherical, &next, &cloud.points);
+    addPlaces(lights->diffuse, &next, &places);
+    addPlaces(lights->glossy, &next, &places);
+    addPlaces(lights->spherical, &next, &places);
   }
-  return cloud;
+  return places;
 }
 
 }  // namespace
 
 struct LightSpacing::Search {
   explicit Search(std::initializer_list<const VirtualLights*> lights)
-      : cloud(placesOf(lights)), tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {}
-  const Cloud cloud;
-  const Tree tree;
+      : places(placesOf(lights)), tree(places) {}
+  const std::vector<Place> places;
+  const PlaceTree<Place> tree;
 };
 
 LightSpacing::LightSpacing(std::initializer_list<const VirtualLights*> lights)
@@ -61,7 +53,7 @@ float LightSpacing::distance(Vec3f p, float count) const {
   const float query[3] = {p.x, p.y, p.z};
   uint32_t nearest[kNeighbours];
   float squares[kNeighbours];
-  const size_t found = search_->tree.knnSearch(query, kNeighbours, nearest, squares);
+  const size_t found = search_->tree.index().knnSearch(query, kNeighbours, nearest, squares);
   if (found == 0) return std::numeric_limits<float>::infinity();
   return std::sqrt(squares[found - 1] * count / static_cast<float>(found * kStep));
 }

@@ -1,8 +1,8 @@
 #include "lobelia/lights/photon_map.h"
 
 #include <algorithm>
-#include <nanoflann.hpp>
 
+#include "lobelia/lights/place_tree.h"
 #include "lobelia/lights/virtual_lights.h"
 
 namespace lobelia {
@@ -10,21 +10,6 @@ namespace {
 
 constexpr float kLeastCosine = 0.9f;  // between the normals of a surface
 constexpr float kMostSine2 = 0.1f;    // of the elevation of a photon over the plane, squared
-constexpr size_t kLeaf = 16;
-
-// What the tree asks of its points.
-struct Points {
-  const std::vector<Photon>& photons;
-  size_t kdtree_get_point_count() const { return photons.size(); }
-  float kdtree_get_pt(size_t i, size_t axis) const {
-    const Vec3f& p = photons[i].p;
-    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
 
 bool nearer(const PhotonsFound::Entry& a, const PhotonsFound::Entry& b) {
   return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.index < b.index;
@@ -73,13 +58,8 @@ class Nearest {
 
 }  // namespace
 
-struct PhotonMap::Tree {
-  Points points;
-  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3,
-                                      uint32_t>
-      index;
-  explicit Tree(const std::vector<Photon>& photons)
-      : points{photons}, index(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeaf)) {}
+struct PhotonMap::Tree : PlaceTree<Photon> {
+  using PlaceTree::PlaceTree;
 };
 
 PhotonMap::PhotonMap(std::vector<Photon> photons) : photons_(std::move(photons)) {
@@ -92,7 +72,7 @@ void PhotonMap::find(const PhotonQuery& query, PhotonsFound* found) const {
   if (!tree_) return;
   Nearest nearest(query, photons_, &found->entries);
   const float p[3] = {query.p.x, query.p.y, query.p.z};
-  tree_->index.findNeighbors(nearest, p, nanoflann::SearchParams());
+  tree_->index().findNeighbors(nearest, p, nanoflann::SearchParams());
   std::sort(found->entries.begin(), found->entries.end(), nearer);
   float radius2 = query.maxRadius * query.maxRadius;
   if (found->entries.size() > query.count) {

@@ -14,9 +14,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <nanoflann.hpp>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/lights/place_tree.h"
 #include "lobelia/scene/shading.h"
 
 namespace lobelia {
@@ -32,18 +32,7 @@ constexpr float kAutomaticFactor = 2.f;
 constexpr float kOpenShare = 0.3f;
 constexpr float kLeastShare = 0.4f;
 
-struct Cloud {
-  const std::vector<SphericalLight>& lights;
-  size_t kdtree_get_point_count() const { return lights.size(); }
-  float kdtree_get_pt(size_t i, size_t axis) const { return lights[i].p[static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud, float, uint32_t>,
-                                        Cloud, 3, uint32_t>;
+using Tree = PlaceTree<SphericalLight>;
 
 SurfacePoint surfaceOf(const Scene& scene, const SphericalLight& light) {
   return surfacePoint(scene, {0, light.b1, light.b2, light.instance, light.triangle});
@@ -124,7 +113,7 @@ float searchDistance(const Tree& tree, const std::vector<SphericalLight>& lights
   const float query[3] = {p.x, p.y, p.z};
   for (const float leastCosine : {kLeastCosine, -2.f}) {
     OrientedNeighbours found(normals, i, leastCosine);
-    tree.findNeighbors(found, query, nanoflann::SearchParams());
+    tree.index().findNeighbors(found, query, nanoflann::SearchParams());
     if (found.distance() > 0) return found.distance();
   }
   return 0;
@@ -141,8 +130,7 @@ std::vector<float> tenthNeighbourDistances(const Tracer& tracer,
   parallelFor(lights.size(), 1024, [&](size_t i) {
     normals[i] = encodeOctahedral(litNormal(surfaceOf(scene, lights[i]), lights[i]));
   });
-  const Cloud cloud{lights};
-  const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  const Tree tree(lights);
   parallelFor(lights.size(), 256, [&](size_t i) {
     distances[i] = searchDistance(tree, lights, normals, static_cast<uint32_t>(i));
   });
