@@ -34,9 +34,9 @@ std::set<std::string> chosenOf(const std::string& option, const std::string& lis
   std::istringstream in(list + ",");
   for (std::string name; std::getline(in, name, ',');) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw UsageError(fmt::format(
-          "{} '{}': there is no '{}'{}; there are {} (a list has commas)", option, list, name,
-          suggestion(name, {known.begin(), known.end()}), fmt::join(known, ", ")));
+      throw UsageError(fmt::format("{} '{}': there is no '{}'; there are {} (a list has commas){}",
+                                   option, list, name, fmt::join(known, ", "),
+                                   suggestion(name, {known.begin(), known.end()})));
     }
     chosen.insert(name);
   }

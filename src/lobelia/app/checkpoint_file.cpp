@@ -213,9 +213,10 @@ CheckpointFile::CheckpointFile(std::string file, RenderIdentity identity, double
       context_(context),
       due_(nanosecondsNow() + interval_) {
   const bool exists = std::filesystem::exists(file_);
+  if (exists && !std::filesystem::is_regular_file(file_))
+    throw InputError({file_}, "is not a regular file; a checkpoint needs one of its own");
   if (!resume) {
-    const bool empty = std::filesystem::is_regular_file(file_) && readFileStart(file_, 1).empty();
-    if (exists && !empty && store::kindOf(file_) != kKind)
+    if (exists && !readFileStart(file_, 1).empty() && store::kindOf(file_) != kKind)
       throw InputError({file_},
                        "is there and no checkpoint, which --checkpoint would replace; "
                        "name another file, or remove this one");

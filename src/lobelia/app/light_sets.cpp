@@ -57,7 +57,7 @@ bool combinesWithNearLights(const RenderOptions& options) {
 }
 
 float nearLightsOf(const RenderOptions& options) {
-  if (options.nearLights >= 0) return options.nearLights;
+  if (options.nearLights >= 0) return options.nearLights + 0.f;  // -0 is 0
   return combinesWithNearLights(options) && !options.compensate ? 4.f : 0.f;
 }
 

@@ -198,7 +198,7 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   context.statistics.addCount("light_particles", particles);
   const size_t left = lights.diffuse.size() + lights.glossy.size() + lights.spherical.size();
   if (left == 0 && !context.cancelled())
-    context.warning("no particle left a virtual light: there is no indirect light to gather");
+    context.warning("no particle left a virtual light: lights give no indirect light");
   context.debug(fmt::format("{} particles left {} diffuse, {} glossy and {} spherical lights",
                             particles, lights.diffuse.size(), lights.glossy.size(),
                             lights.spherical.size()));

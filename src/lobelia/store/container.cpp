@@ -90,8 +90,9 @@ struct Header {
 };
 
 Header readHeader(const std::string& file, std::span<const std::byte> bytes) {
+  if (bytes.empty()) throw InputError({file}, "the file is empty");
   const size_t magic = std::min(bytes.size(), sizeof(kMagic));
-  if (bytes.empty() || std::memcmp(bytes.data(), kMagic, magic) != 0) {
+  if (std::memcmp(bytes.data(), kMagic, magic) != 0) {
     throw InputError({file}, "is not a Lobelia data file; it should start with 'LOBELIA'");
   }
   if (bytes.size() < kHeaderSize) {
