@@ -44,17 +44,12 @@ class Trial : public PathTrial {
     compensation.clamp = setting.clamp;
     compensation.glossy = setting.glossy;
     compensation.maxDepth = setting.maxDepth;
-    double gathered = 0;
-    for (eye.sample = 0; eye.sample < eye.sampleCount; ++eye.sample) {
-      const Receivers receivers =
-          traceReceivers(tracer_, emitters_, camera(), eye, 0, camera().height, film, context_);
-      std::vector<Rgb> radiance(receivers.points.size());
-      gatherAll(tracer_, receivers, lights, gather, radiance, context_);
-      compensation.rays.sample = eye.sample;
-      if (compensated) compensate(tracer_, emitters_, receivers, compensation, radiance, context_);
-      for (const Rgb v : radiance) gathered += double{v.x} + double{v.y} + double{v.z};
-    }
-    return sum(film) + gathered / static_cast<double>(film.pixelCount());
+    const auto add = [&](const Receivers& receivers, int sample, std::vector<Rgb>* radiance) {
+      compensation.rays.sample = sample;
+      if (compensated) compensate(tracer_, emitters_, receivers, compensation, *radiance, context_);
+    };
+    const double light = gathered(eye, lights, gather, &film, add);
+    return sum(film) + light;
   }
 };
 

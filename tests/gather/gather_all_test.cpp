@@ -37,6 +37,17 @@ class GatherAll : public testing::Test {
     EXPECT_GT(lit, radiance.size() / 15) << "the scene tests too little";
   }
 
+  // Of how many points less than this share is left; none has more.
+  static size_t darkened(const std::vector<Rgb>& before, const std::vector<Rgb>& after,
+                         float share) {
+    size_t count = 0;
+    for (size_t i = 0; i < before.size(); ++i) {
+      EXPECT_LE(after[i].x, before[i].x * 1.00001f);
+      count += after[i].x < share * before[i].x;
+    }
+    return count;
+  }
+
   Scene scene_ = randomTriangles(60, 11);
   Context context_;
   Tracer tracer_{scene_, context_};
@@ -87,12 +98,7 @@ TEST_F(GatherAll, ClampLimitsGeometryTimesLobes) {
   const std::vector<Rgb> clamped = gather(receivers, lights, settings);
   settings.clamp = 0;
   const std::vector<Rgb> whole = gather(receivers, lights, settings);
-  size_t darker = 0;
-  for (size_t i = 0; i < whole.size(); ++i) {
-    EXPECT_LE(clamped[i].x, whole[i].x * 1.00001f);
-    darker += clamped[i].x < 0.99f * whole[i].x;
-  }
-  EXPECT_GT(darker, whole.size() / 4);
+  EXPECT_GT(darkened(whole, clamped, 0.99f), whole.size() / 4);
 }
 
 // Of what is near, receivers gather a share only.
@@ -108,12 +114,7 @@ TEST_F(GatherAll, NearLightsCountBySharesThatGrowWithTheDistance) {
     if (rng.next1D() < 0.8f) point.nearDistance = 2 * rng.next1D();
   expectOracle(receivers, lights, settings);
   const std::vector<Rgb> far = gather(receivers, lights, settings);
-  size_t darker = 0;
-  for (size_t i = 0; i < whole.size(); ++i) {
-    EXPECT_LE(far[i].x, whole[i].x * 1.00001f);
-    darker += far[i].x < 0.9f * whole[i].x;
-  }
-  EXPECT_GT(darker, whole.size() / 8);
+  EXPECT_GT(darkened(whole, far, 0.9f), whole.size() / 8);
 }
 
 TEST_F(GatherAll, DepthLimitCountsEyeAndLightEdges) {

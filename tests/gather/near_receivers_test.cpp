@@ -3,8 +3,6 @@
 #include <limits>
 
 #include "gather/path_trial.h"
-#include "lobelia/gather/gather.h"
-#include "lobelia/lights/light_pass.h"
 #include "lobelia/lights/light_spacing.h"
 
 namespace lobelia {
@@ -48,17 +46,10 @@ class Trial : public PathTrial {
     GatherSettings gather;
     gather.maxDepth = setting.maxDepth;
     gather.direct = setting.direct;
-    double gathered = 0;
-    for (eye.sample = 0; eye.sample < eye.sampleCount; ++eye.sample) {
-      const Receivers receivers =
-          traceReceivers(tracer_, emitters_, camera(), eye, 0, camera().height, film, context_);
-      std::vector<Rgb> radiance(receivers.points.size());
-      gatherAll(tracer_, receivers, lights, gather, radiance, context_);
-      for (size_t i = 0; i < radiance.size(); ++i)
-        gathered += double{radiance[i].x} + double{radiance[i].y} + double{radiance[i].z};
-    }
+    const double gathered =
+        this->gathered(eye, lights, gather, &film, [](const Receivers&, int, std::vector<Rgb>*) {});
     const double own = setting.direct ? sum(film, "direct") + sum(film) : sum(film, layer);
-    return own + gathered / static_cast<double>(film.pixelCount());
+    return own + gathered;
   }
 };
 

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "lobelia/gather/gather.h"
+#include "lobelia/lights/light_pass.h"
 #include "support/test_scenes.h"
 
 namespace lobelia::test {
@@ -51,6 +53,22 @@ class PathTrial {
       runs.push_back(once());
     }
     return meanOf(runs);
+  }
+  // What the eye pass adds to the film's layers, and the light of all lights, which it returns, as
+  // a mean over the picture. more(receivers, sample, radiance): adds what else there is.
+  template <class More>
+  double gathered(EyeSettings eye, const VirtualLights& lights, const GatherSettings& settings,
+                  Film* film, const More& more) {
+    double sum = 0;
+    for (eye.sample = 0; eye.sample < eye.sampleCount; ++eye.sample) {
+      const Receivers receivers =
+          traceReceivers(tracer_, emitters_, camera(), eye, 0, camera().height, *film, context_);
+      std::vector<Rgb> radiance(receivers.points.size());
+      gatherAll(tracer_, receivers, lights, settings, radiance, context_);
+      more(receivers, eye.sample, &radiance);
+      for (const Rgb v : radiance) sum += double{v.x} + double{v.y} + double{v.z};
+    }
+    return sum / static_cast<double>(film->pixelCount());
   }
   const Camera& camera() const { return scene_.cameras[0]; }
   static double sum(const Film& film, const char* layer = "indirect") {

@@ -45,8 +45,6 @@ struct LightSpacing::Search {
 
 LightSpacing::LightSpacing(std::initializer_list<const VirtualLights*> lights)
     : search_(std::make_unique<Search>(lights)) {}
-LightSpacing::LightSpacing(LightSpacing&&) noexcept = default;
-LightSpacing& LightSpacing::operator=(LightSpacing&&) noexcept = default;
 LightSpacing::~LightSpacing() = default;
 
 float LightSpacing::distance(Vec3f p, float count) const {

@@ -12,8 +12,6 @@ class LightSpacing {
  public:
   // Diffuse, glossy and spherical lights count. The lights need not outlive it.
   explicit LightSpacing(std::initializer_list<const VirtualLights*> lights);
-  LightSpacing(LightSpacing&&) noexcept;
-  LightSpacing& operator=(LightSpacing&&) noexcept;
   ~LightSpacing();
 
   // Radius of a sphere around p in which about `count` (at least 0) lights lie, if they lie on a
