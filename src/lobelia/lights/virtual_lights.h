@@ -77,20 +77,64 @@ struct SphereShading {
   float nearField = 0;
 };
 
+// Virtual spherical Gaussian light [Tokuyoshi15; P001 supplement, section 3]: a cluster of point
+// lights with the first moments of what leaves them and the second of where they are.
+struct GaussianLight {
+  Vec3f mean;                // of the places, by power
+  float covariance[6] = {};  // of the places, by power: xx, yy, zz, xy, xz, yz
+  // W, what leaves by cosine lobes, whose normals are distributed as a von Mises-Fisher lobe is.
+  Rgb diffuse{};
+  Vec3f normal{0, 0, 1};
+  float normalSharpness = 0;
+  Rgb glossy{};  // W, the integral of the Gaussian
+  Vec3f axis{0, 0, 1};
+  float sharpness = 0;
+  // Points of the cluster, for shadow rays: the first is the nearest to the mean, the others are
+  // drawn by power. Normals octahedral, of the sides that light leaves.
+  struct Place {
+    Vec3f p;
+    uint32_t normal = 0;
+  };
+  static constexpr int kPlaces = 4;
+  Place places[kPlaces];
+  uint16_t group = 0;
+  uint16_t depth = 0;
+};
+static_assert(sizeof(GaussianLight) == 160);
+
+// How VSGLs are evaluated (docs/manual.md).
+struct GaussianShading {
+  // accurate: cosines at both ends are integrated over the Gaussians, lobes of receivers are
+  // widened by them (gather/gaussian-inl.h). The paper's two: diffuse receivers by the product of
+  // Gaussians, or by the cosine pulled out of the integral; glossy ones by anisotropic Gaussians
+  // [P001 supplement, section 4.2].
+  enum class Form : uint8_t { accurate, product, pulled };
+  Form form = Form::accurate;
+  // Where shadow rays end: at the place nearest to the mean, or at one of the places at random.
+  enum class Ends : uint8_t { random, mean };
+  Ends ends = Ends::random;
+  // Variance of places across the view: projected of the covariance, or half of its trace.
+  bool projected = true;
+  float spread = 2;  // factor of the variance; 2 with half of the trace is the paper's equation 3
+  // Means of Gaussians by Toksvig's formula, as the paper has them, instead of exact ones.
+  bool toksvig = false;
+};
+
 // Lights of one class are sorted by depth, and those of a depth, unless an older file has them,
 // along a Morton curve: depthEnds[d] is the number of lights with depth <= d, where depth is the
 // number of edges between the emitter and the light (0: on the emitter itself).
 struct VirtualLights {
-  std::string model;  // "vpl", "glossy", "vsl", "richvpl"
+  std::string model;  // "vpl", "glossy", "vsl", "vsgl", "richvpl"
   std::vector<OmniLight> omni;
   std::vector<DirectionalLight> directional;
   std::vector<DiffuseLight> diffuse;
   std::vector<GlossyLight> glossy;
   std::vector<SphericalLight> spherical;
-  std::vector<uint32_t> diffuseDepthEnds, glossyDepthEnds, sphericalDepthEnds;
+  std::vector<GaussianLight> gaussian;
+  std::vector<uint32_t> diffuseDepthEnds, glossyDepthEnds, sphericalDepthEnds, gaussianDepthEnds;
   // Light groups (LightGroups): their names, and the group of every light as an index into them;
-  // parallel to the lights, for diffuse and spherical lights in them. Empty: all lights are of
-  // group 0.
+  // parallel to the lights, for diffuse, spherical and Gaussian lights in them. Empty: all lights
+  // are of group 0.
   std::vector<std::string> groups;
   std::vector<uint16_t> omniGroups, directionalGroups, glossyGroups;
   uint64_t sceneHash = 0;
@@ -99,10 +143,13 @@ struct VirtualLights {
   // How they were made (LightSettings): what a renderer that uses them must agree with.
   int maxDepth = -1;
   float specularLimit = 0;
-  bool direct = false;          // emitters themselves are among them
-  SphereShading sphereShading;  // not kept in files
+  bool direct = false;  // emitters themselves are among them
+  // Not kept in files.
+  SphereShading sphereShading;
+  GaussianShading gaussianShading;
   size_t size() const {
-    return omni.size() + directional.size() + diffuse.size() + glossy.size() + spherical.size();
+    return omni.size() + directional.size() + diffuse.size() + glossy.size() + spherical.size() +
+           gaussian.size();
   }
 };
 

@@ -1,0 +1,31 @@
+// Virtual spherical Gaussian lights from maps by filtered importance sampling [P001 supplement,
+// section 5, algorithm 1; Křivánek and Colbert 2008] and by k-means.
+#pragma once
+
+#include "lobelia/lights/cluster_sums.h"
+#include "lobelia/lights/reflective_shadow_map.h"
+
+namespace lobelia {
+
+struct FilteredSampling {
+  size_t count = 1024;  // lights
+  double overlap = 1;   // K of algorithm 1: kernels hold this share of the power, over `count`
+  // Level of a kernel: from the density at its centre (original), or such that the kernel holds
+  // K / count of the power (bisection; the paper's).
+  enum class Level : uint8_t { original, bisection };
+  Level level = Level::bisection;
+  bool toksvig = false;
+  uint64_t seed = 0;
+};
+// Lights of one map; fewer than `count` where kernels hold no power. The sum of their powers is the
+// map's in the mean over seeds with `bisection`.
+std::vector<GaussianLight> filteredLights(const ReflectiveShadowMap& map,
+                                          const FilteredSampling& sampling);
+
+// k-means without iterations, as in the paper: centres are drawn by power, and every point belongs
+// to the nearest in space and on the map. scale: size of the scene. mapWeight: what the extent of
+// the map counts against that size; 0: space alone.
+Clusters nearestCentres(std::span<const LightPoint> points, size_t count, float scale,
+                        uint32_t mapSize, float mapWeight, uint64_t seed);
+
+}  // namespace lobelia
