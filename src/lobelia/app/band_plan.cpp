@@ -4,6 +4,7 @@
 
 #include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_layers.h"
+#include "lobelia/app/vsgl_options.h"
 
 namespace lobelia::app {
 namespace {
@@ -24,6 +25,7 @@ BandPlan planBands(const Tracer& tracer, const PixelSet& pixels, int maxDepth, s
   plan.gather.clamp = clampValue(options, tracer.bounds().radius());
   plan.gather.maxDepth = maxDepth;
   plan.gather.direct = options.direct == "lights";
+  plan.gather.shadowRays = shadowRaysOf(options);
 
   plan.eye.sampleCount = virtualLightSamples(options);
   plan.eye.maxDepth = maxDepth;

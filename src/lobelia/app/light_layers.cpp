@@ -6,6 +6,7 @@
 
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/sampled_film.h"
+#include "lobelia/app/vsgl_options.h"
 #include "lobelia/base/error.h"
 
 namespace lobelia::app {
@@ -24,9 +25,9 @@ Layer* find(Film& film, const std::string& name) {
 }  // namespace
 
 const std::vector<std::string>& typeLayers() {
-  static const std::vector<std::string> names{"od", "os", "nd", "ns", "dd",
-                                              "ds", "sd", "ss", "vd", "vs"};
-  static_assert(GatherParts::kTypes == 10);
+  static const std::vector<std::string> names{"od", "os", "nd", "ns", "dd", "ds",
+                                              "sd", "ss", "vd", "vs", "gd", "gs"};
+  static_assert(GatherParts::kTypes == 12);
   return names;
 }
 
@@ -40,9 +41,17 @@ void requireLightLayers(const RenderOptions& options) {
   const bool virtualLights =
       options.lights != "path" && options.lights != "light" && options.lights != "photon";
   if (!virtualLights && asked(options, "types")) {
+    throw UsageError(
+        fmt::format("--aov types takes virtual lights apart and --lights {} has none; use vpl, "
+                    "glossy, vsl or vsgl",
+                    options.lights));
+  }
+  if (shadowRaysOf(options) > 0 &&
+      (asked(options, "types") || asked(options, "groups") || asked(options, "cost"))) {
     throw UsageError(fmt::format(
-        "--aov types takes virtual lights apart and --lights {} has none; use vpl, glossy or vsl",
-        options.lights));
+        "--aov groups, types and cost need a shadow ray to every light; --vsgl-shadows {} traces "
+        "some; leave it out",
+        options.vsglShadows));
   }
   if (options.lights == "vsl" && options.sphereSampling != "product" && asked(options, "types")) {
     throw UsageError(fmt::format(

@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "lobelia/app/gather_options.h"
+#include "lobelia/app/gaussian_lights.h"
+#include "lobelia/app/vsgl_options.h"
 #include "lobelia/lights/light_spacing.h"
 #include "lobelia/lights/spherical_coverage.h"
 #include "lobelia/lights/spherical_radius.h"
@@ -47,7 +49,8 @@ LightCounts countLights(const VirtualLights& lights) {
                  lights.directional.size() * sizeof(DirectionalLight) +
                  lights.diffuse.size() * sizeof(DiffuseLight) +
                  lights.glossy.size() * sizeof(GlossyLight) +
-                 lights.spherical.size() * sizeof(SphericalLight);
+                 lights.spherical.size() * sizeof(SphericalLight) +
+                 lights.gaussian.size() * sizeof(GaussianLight);
   counts.particles = lights.particles;
   return counts;
 }
@@ -84,10 +87,14 @@ LightParts splitLights(VirtualLights lights) {
           indirect.glossyGroups);
   splitAt(emitterLights(lights.sphericalDepthEnds), lights.spherical, direct.spherical,
           indirect.spherical);
+  splitAt(emitterLights(lights.gaussianDepthEnds), lights.gaussian, direct.gaussian,
+          indirect.gaussian);
+  splitEnds(lights.gaussianDepthEnds, direct.gaussianDepthEnds, indirect.gaussianDepthEnds);
   splitEnds(lights.diffuseDepthEnds, direct.diffuseDepthEnds, indirect.diffuseDepthEnds);
   splitEnds(lights.glossyDepthEnds, direct.glossyDepthEnds, indirect.glossyDepthEnds);
   splitEnds(lights.sphericalDepthEnds, direct.sphericalDepthEnds, indirect.sphericalDepthEnds);
   direct.sphereShading = indirect.sphereShading = lights.sphereShading;
+  direct.gaussianShading = indirect.gaussianShading = lights.gaussianShading;
   direct.specularLimit = indirect.specularLimit = lights.specularLimit;
   direct.groups = indirect.groups = std::move(lights.groups);
   return parts;
@@ -117,7 +124,7 @@ SphereShading sphereShadingOf(const RenderOptions& options) {
 // Default clamp of `vpl` and of what gets compensated: the geometry term of a light nearer than a
 // twentieth of the scene's radius, the customary cure of its spikes.
 float clampValue(const RenderOptions& options, float sceneRadius) {
-  if (options.clamp == "off" || options.lights == "vsl") return 0;
+  if (options.clamp == "off" || options.lights == "vsl" || options.lights == "vsgl") return 0;
   if (options.clamp.empty()) {
     return options.lights == "vpl" || options.compensate
                ? kInvPi / sqr(0.05f * std::max(sceneRadius, 1e-6f))
@@ -141,9 +148,10 @@ LightSettings lightSettings(const RenderOptions& options, int maxDepth, int set)
   settings.set = static_cast<uint32_t>(set);
   settings.maxDepth = maxDepth;
   settings.specularLimit = options.specularLimit;
-  settings.kind = options.lights == "vpl"   ? LightKind::diffuse
-                  : options.lights == "vsl" ? LightKind::spherical
-                                            : LightKind::glossy;
+  settings.kind = options.lights == "vpl"    ? LightKind::diffuse
+                  : options.lights == "vsl"  ? LightKind::spherical
+                  : options.lights == "vsgl" ? LightKind::gaussian
+                                             : LightKind::glossy;
   settings.directAsLights = options.direct == "lights";
   settings.environmentLights = options.environmentLights;
   settings.radiusFactor = options.radius;
@@ -166,6 +174,7 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
     }
     requireFit(options.loadLights, lights, settings, tracer.scene());
     lights.sphereShading = settings.sphereShading;
+    lights.gaussianShading = gaussianShadingOf(options);
     // Radii and discs are this render's affair.
     if (!lights.spherical.empty()) {
       chooseRadii(tracer, settings, &lights, context);
@@ -173,7 +182,9 @@ VirtualLights obtainLights(const Tracer& tracer, const EmitterSampler& emitters,
     }
     return lights;
   }
-  VirtualLights lights = makeLights(tracer, emitters, settings, context);
+  VirtualLights lights = options.lights == "vsgl"
+                             ? makeGaussianLights(tracer, emitters, settings, options, context)
+                             : makeLights(tracer, emitters, settings, context);
   lights.model = options.lights;
   // Lights of a pass that was stopped lack a part of their power: of no use later.
   if (!options.saveLights.empty() && !context.cancelled()) {

@@ -16,6 +16,7 @@
 #include "lobelia/app/replay.h"
 #include "lobelia/app/signals.h"
 #include "lobelia/app/unused_options.h"
+#include "lobelia/app/vsgl_options.h"
 #include "lobelia/base/parallel.h"
 
 namespace lobelia::app {
@@ -26,8 +27,9 @@ void requireLightFiles(const RenderOptions& options) {
                                    std::pair{"--load-lights", options.loadLights}}) {
     if (file.empty()) continue;
     if (!usesVirtualLights(options) || options.lights == "photon") {
-      throw UsageError(fmt::format("{}: --lights {} has no virtual lights; use vpl, glossy or vsl",
-                                   name, options.lights));
+      throw UsageError(
+          fmt::format("{}: --lights {} has no virtual lights; use vpl, glossy, vsl or vsgl", name,
+                      options.lights));
     }
     if (options.passes > 1) {
       throw UsageError(fmt::format("--passes draws new lights for every pass; leave out {}", name));
@@ -75,6 +77,7 @@ ExitCode render(const RenderOptions& options, const GlobalOptions& global,
   requirePicture(options);
   requireLightLayers(options);
   requireGather(options);
+  requireVsgl(options);
   requireOwnLight(options);
   requireFrames(options);
   requireReplay(options);

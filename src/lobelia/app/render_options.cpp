@@ -5,6 +5,7 @@
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/option_checks.h"
+#include "lobelia/app/vsgl_options.h"
 
 namespace lobelia::app {
 
@@ -255,6 +256,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
       ->type_name("N")
       ->check(integerRange(1, 1000))
       ->capture_default_str();
+  addVsglOptions(c, o);
   c.add_option("--specular-limit", o.specularLimit,
                "Roughness below which a lobe extends paths instead of gathering")
       ->type_name("ROUGHNESS")

@@ -58,6 +58,11 @@ struct RenderOptions {
   float radius = 0;  // of spherical lights, over the tenth neighbour's distance; 0: automatic
   std::string sphereIndicator = "planar", sphereSampling = "product";
   int sphereSamples = 16;
+  // Of --lights vsgl (vsgl_options.h); "", 0: the default.
+  std::string vsglClusters, vsglShading, vsglVariance, vsglMerging, vsglShadows;
+  size_t vsglPoints = 0, vsglViews = 0;
+  double vsglOverlap = 0;
+  float vsglSpread = 0;
   float specularLimit = 0.08f;
   float nearLights = -1;  // that lie where receivers find light by rays; below 0: the default
   std::string clamp;      // "": the method's default

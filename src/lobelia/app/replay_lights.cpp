@@ -28,6 +28,7 @@ void eachLight(const VirtualLights& set, std::vector<Light> VirtualLights::*arra
     VirtualLights one;
     one.specularLimit = set.specularLimit;
     one.sphereShading = set.sphereShading;
+    one.gaussianShading = set.gaussianShading;
     (one.*array).push_back(lights[i]);
     if (ends) {
       for (const uint32_t end : *ends) (one.*arrayEnds).push_back(i < end ? 1 : 0);
@@ -204,6 +205,7 @@ class LightReplay {
       addClass("diffuse", &L::diffuse, &part->diffuseDepthEnds, &L::diffuseDepthEnds);
       addClass("glossy", &L::glossy, &part->glossyDepthEnds, &L::glossyDepthEnds);
       addClass("spherical", &L::spherical, &part->sphericalDepthEnds, &L::sphericalDepthEnds);
+      addClass("spherical Gaussian", &L::gaussian, &part->gaussianDepthEnds, &L::gaussianDepthEnds);
     }
     const size_t count = std::min(kBrightest, lights.size());
     std::partial_sort(lights.begin(), lights.begin() + static_cast<ptrdiff_t>(count), lights.end(),

@@ -77,7 +77,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"diffuse", countOf(gather::LightClass::diffuse)},
                     {"glossy", countOf(gather::LightClass::glossy)},
                     {"spherical", countOf(gather::LightClass::spherical)},
-                    {"vsgl", 0},
+                    {"vsgl", countOf(gather::LightClass::gaussian)},
                     {"photons", report.photons},
                     {"particles", lights.particles},
                     {"sets", report.sets}};

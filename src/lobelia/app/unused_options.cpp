@@ -69,7 +69,11 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
   for (const char* name :
        {"--richvpl-lights", "--richvpl-radiance", "--richvpl-texels", "--richvpl-lobes"})
     report(name, options.lights != "richvpl", "only --lights richvpl has Rich-VPLs");
-  report("--clamp", options.lights == "vsl" && options.clamp != "off",
+  for (const char* name :
+       {"--vsgl-clusters", "--vsgl-points", "--vsgl-views", "--vsgl-overlap", "--vsgl-shading",
+        "--vsgl-variance", "--vsgl-spread", "--vsgl-merging", "--vsgl-shadows"})
+    report(name, options.lights != "vsgl", "only --lights vsgl has spherical Gaussian lights");
+  report("--clamp", (options.lights == "vsl" || options.lights == "vsgl") && options.clamp != "off",
          "spherical lights have no spikes to clamp");
   for (const char* name : {"--photons-nearest", "--photon-radius", "--gather-rays"})
     report(name, options.lights != "photon", "only --lights photon has photons");

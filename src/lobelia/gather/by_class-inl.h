@@ -26,6 +26,8 @@ auto byClass(::lobelia::gather::LightClass lightClass, const F& f) {
       return f(std::integral_constant<::lobelia::gather::LightClass, diffuse>());
     case spherical:
       return f(std::integral_constant<::lobelia::gather::LightClass, spherical>());
+    case gaussian:
+      return f(std::integral_constant<::lobelia::gather::LightClass, gaussian>());
     case glossy:
       break;
   }

@@ -50,6 +50,11 @@ HWY_INLINE Mf lightFaces(const g::PreparedLight& light, V3<Vf> d) {
     faces = faces & (d2 >= Vf(light.reach.from)) & (d2 < Vf(light.reach.to));
     if (!light.transmits) faces = faces & (dot(broadcast(light.n), d) < Vf(0.f));
   }
+  if constexpr (kClass == g::LightClass::gaussian) {
+    // cos |cos| > c |c|, as above.
+    const Vf q = Vf(0.f) - dot(broadcast(light.n), d);
+    faces = faces & (q * abs(q) >= Vf(light.cutoff) * d2);
+  }
   return faces;
 }
 
@@ -65,11 +70,11 @@ HWY_INLINE Vf gatheredShare(const g::PointStrip& strip, size_t lane, Vf distance
   return min(max(distance * Vf::load(strip.nearScale + lane) - Vf(1.f), Vf(0.f)), Vf(1.f));
 }
 
-// Can the points scatter light that comes along d towards their wo?
-HWY_INLINE Mf receiverFaces(const g::PointStrip& strip, size_t lane, V3<Vf> d) {
-  const Vf c = dot(load(strip.n, lane), d);
+// Can the points scatter light that comes along d, or within `extent` of its end, towards their wo?
+HWY_INLINE Mf receiverFaces(const g::PointStrip& strip, size_t lane, V3<Vf> d, float extent) {
+  const Vf c = dot(load(strip.n, lane), d), slack(extent);
   const Vf above = Vf::load(strip.above + lane), below = Vf::load(strip.below + lane);
-  Mf faces = (c * above > Vf(0.f)) | (c * below < Vf(0.f));
+  Mf faces = ((c + slack) * above > Vf(0.f)) | ((c - slack) * below < Vf(0.f));
   // Bump maps: normal and perturbed normal must agree about the side (bsdf/lobe.h).
   if (strip.perturbed) faces = faces & (c * dot(load(strip.base, lane), d) > Vf(0.f));
   return faces;

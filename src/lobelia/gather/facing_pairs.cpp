@@ -14,7 +14,7 @@ LOBELIA_CORE_BEGIN
 template <g::LightClass kClass>
 uint32_t facingLanes(const g::PointStrip& strip, const g::PreparedLight& light, size_t lane) {
   const V3<Vf> d = toLight<kClass>(light, load(strip.p, lane));
-  return maskBits(lightFaces<kClass>(light, d) & receiverFaces(strip, lane, d) &
+  return maskBits(lightFaces<kClass>(light, d) & receiverFaces(strip, lane, d, light.extent) &
                   beyondNear<kClass>(strip, lane, d));
 }
 

@@ -21,6 +21,9 @@ struct GatherSettings {
   // Do lights on emitters themselves (depth 0; omni and directional lights are) count? false where
   // the eye pass has added direct light (--direct nee): such lights are left out.
   bool direct = false;
+  // Of spherical Gaussian lights, gatherAll() alone: shadow rays of a receiver, to lights chosen by
+  // what they would send it (shadow_choice.h); 0: all is visible; below 0: one to every light.
+  int shadowRays = -1;
   // Only the tiles that hold a receiver of this pixel are gathered (--replay): these get the
   // same bits, others the same or nothing.
   static constexpr uint32_t kAllPixels = 0xffffffffu;
@@ -37,7 +40,7 @@ bool holdsPixel(const Receivers& receivers, size_t begin, size_t end, uint32_t p
 // also its rays.
 struct GatherParts {
   // Light's class x receiver's lobes: diffuse (with sheen and diffuse transmission) or glossy.
-  static constexpr size_t kTypes = 10;  // [2 * class + lobes], classes in the order of LightClass
+  static constexpr size_t kTypes = 12;  // [2 * class + lobes], classes in the order of LightClass
   size_t groupCount = 0;                // of VirtualLights::groups; 0: not asked for
   bool byType = false, countRays = false;
   bool recordCuts = false;  // of strategies that have some (--export-trees)

@@ -21,16 +21,21 @@
 #include <optional>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/base/random.h"
+#include "lobelia/gather/facing_pairs.h"
 #include "lobelia/gather/gather.h"
 #include "lobelia/gather/kernels.h"
 #include "lobelia/gather/light_range.h"
 #include "lobelia/gather/rich_radiance.h"
+#include "lobelia/gather/shadow_choice.h"
 #include "lobelia/gather/tile_parts.h"
 
 namespace lobelia {
 namespace {
 
 using namespace gather;
+
+constexpr uint64_t kShadowStream = 0x736861646f77;
 
 struct Tally {
   uint64_t rays = 0, pairs = 0, nonfinite = 0;
@@ -86,6 +91,9 @@ class TileGather {
     const LightRange range = rangeForDepth(lights_, lightClass, settings_, smallestDepth);
     const bool near = near_.used() && lightClass == LightClass::spherical;
     const std::vector<Bounds3f> bounds = near ? NearField::boundsOf(tile) : std::vector<Bounds3f>();
+    const bool gaussian = lightClass == LightClass::gaussian;
+    if (gaussian && settings_.shadowRays > 0 && range.size() > 0)
+      return addByChoice(tile, range, sums, tally);
     LightBlock block;
     PairMasks pairs;
     for (size_t first = range.begin; first < range.end; first += kBlockLights) {
@@ -99,13 +107,27 @@ class TileGather {
       allowPairs(tile, block, lights_, settings_, &pairs);
       if (parts != nullptr) parts->watchRays(&pairs);
       const int64_t start = nanosecondsNow();
-      tally->rays += keepVisible(tile, block, tracer_, &pairs);
+      if (gaussian && settings_.shadowRays == 0) {
+        keepFacing(tile, block, &pairs);
+      } else {
+        tally->rays += keepVisible(tile, block, tracer_, &pairs);
+      }
       const int64_t traced = nanosecondsNow();
       shade(tile, block, settings_.clamp, pairs, sums);
       if (parts != nullptr) parts->add(block, settings_.clamp, pairs);
       tally->visibilityNs += traced - start;
       tally->shadeNs += nanosecondsNow() - traced;
     }
+    return true;
+  }
+
+  bool addByChoice(const Tile& tile, const LightRange& range, TileSums* sums, Tally* tally) const {
+    if (context_.cancelled()) return false;
+    const ShadowScene scene{tracer_, lights_, settings_};
+    ShadowChoice choice(scene, tile, hashCombine(kShadowStream, lights_.seed));
+    tally->rays += choice.add(LightClass::gaussian, range.begin, range.end, sums);
+    tally->visibilityNs += choice.visibilityNs;
+    tally->shadeNs += choice.shadeNs;
     return true;
   }
 

@@ -29,6 +29,8 @@ constexpr Pairing kPairings[] = {
     {{LightClass::glossy, LightClass::glossy}, true},
     {{LightClass::spherical, LightClass::spherical}, false},
     {{LightClass::spherical, LightClass::spherical}, true},
+    {{LightClass::gaussian, LightClass::gaussian}, false},
+    {{LightClass::gaussian, LightClass::gaussian}, true},
 };
 
 // Largest nodes below `node` that fit a strip.

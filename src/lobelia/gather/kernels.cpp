@@ -12,6 +12,7 @@
 #include "hwy/highway.h"
 // After Highway's headers: compiled once per target.
 #include "lobelia/gather/by_class-inl.h"
+#include "lobelia/gather/gaussian-inl.h"
 #include "lobelia/gather/rich_shading-inl.h"
 #include "lobelia/gather/shading-inl.h"
 #include "lobelia/gather/spherical-inl.h"

@@ -16,8 +16,6 @@ float positionError(Vec3f p) {
   return 4e-7f * std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z)));
 }
 
-Vec3f liftedEnd(Vec3f p, Vec3f n) { return offsetOrigin(p, n, positionError(p), n); }
-
 // expf() is exactly zero below this argument.
 constexpr float kZeroExponent = 104.f;
 
@@ -108,7 +106,25 @@ size_t upToDepth(const std::vector<uint32_t>& ends, size_t count, int depth) {
   return d < ends.size() ? std::min<size_t>(ends[d], count) : count;
 }
 
+void prepareGaussians(const VirtualLights& lights, LightBlock* block) {
+  block->gaussianShading = lights.gaussianShading;
+  for (int i = 0; i < block->count; ++i) {
+    PreparedGaussian& gaussian = block->gaussians[i];
+    gaussian = prepareGaussian(lights.gaussian[block->index[i]], lights.gaussianShading);
+    PreparedLight& out = block->lights[i];
+    out = {};
+    out.p = gaussian.mean;
+    out.end = gaussian.ends[0];
+    out.n = gaussian.diffuse.axis;
+    out.cutoff = -sqr(gaussian.facingSine);
+    out.extent = gaussian.extent;
+    out.intensity = Rgb(1.f);
+  }
+}
+
 }  // namespace
+
+Vec3f liftedEnd(Vec3f p, Vec3f n) { return offsetOrigin(p, n, positionError(p), n); }
 
 float glossyCutoff(float sharpness) {
   // A little wider than where the exponent underflows, for the rounding of the cosine.
@@ -129,6 +145,8 @@ uint16_t groupOf(const VirtualLights& lights, LightClass lightClass, size_t inde
       return static_cast<uint16_t>(lights.diffuse[index].tag >> 8);
     case LightClass::spherical:
       return lights.spherical[index].group;
+    case LightClass::gaussian:
+      return lights.gaussian[index].group;
     case LightClass::glossy:
       break;
   }
@@ -145,6 +163,8 @@ size_t lightCount(const VirtualLights& lights, LightClass lightClass) {
       return lights.diffuse.size();
     case LightClass::spherical:
       return lights.spherical.size();
+    case LightClass::gaussian:
+      return lights.gaussian.size();
     case LightClass::glossy:
       break;
   }
@@ -160,6 +180,8 @@ size_t lightsUpToDepth(const VirtualLights& lights, LightClass lightClass, int d
       return upToDepth(lights.diffuseDepthEnds, lights.diffuse.size(), depth);
     case LightClass::spherical:
       return upToDepth(lights.sphericalDepthEnds, lights.spherical.size(), depth);
+    case LightClass::gaussian:
+      return upToDepth(lights.gaussianDepthEnds, lights.gaussian.size(), depth);
     case LightClass::glossy:
       break;
   }
@@ -178,6 +200,8 @@ size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass) {
       return first(lights.diffuseDepthEnds);
     case LightClass::spherical:
       return first(lights.sphericalDepthEnds);
+    case LightClass::gaussian:
+      return first(lights.gaussianDepthEnds);
     case LightClass::glossy:
       break;
   }
@@ -225,6 +249,8 @@ void prepareChosen(const VirtualLights& lights, const Scene& scene, LightClass l
       return prepareAll(lights.glossy, block);
     case LightClass::spherical:
       return prepareSpheres(lights, scene, shared, wanted, block);
+    case LightClass::gaussian:
+      return prepareGaussians(lights, block);
   }
 }
 

@@ -5,16 +5,17 @@
 #include <vector>
 
 #include "lobelia/gather/aligned_floats.h"
+#include "lobelia/gather/gaussian.h"
 #include "lobelia/gather/near_field.h"
 #include "lobelia/gather/sphere.h"
 #include "lobelia/path/emission_pattern.h"
 
 namespace lobelia::gather {
 
-enum class LightClass : uint8_t { omni, directional, diffuse, glossy, spherical };
-inline constexpr LightClass kLightClasses[] = {LightClass::omni, LightClass::directional,
-                                               LightClass::diffuse, LightClass::glossy,
-                                               LightClass::spherical};
+enum class LightClass : uint8_t { omni, directional, diffuse, glossy, spherical, gaussian };
+inline constexpr LightClass kLightClasses[] = {LightClass::omni,      LightClass::directional,
+                                               LightClass::diffuse,   LightClass::glossy,
+                                               LightClass::spherical, LightClass::gaussian};
 
 // Do receivers gather shares of the class' lights by their distance (ReceiverPoint::nearDistance)?
 // Of spherical ones they do so point by point of their discs.
@@ -24,16 +25,18 @@ constexpr bool hasShares(LightClass lightClass) {
 
 // One record for all classes; a class reads what it has (VirtualLights).
 struct PreparedLight {
-  Vec3f p;          // directional: unit direction to the light
-  Vec3f end;        // of shadow rays: p moved off its surface; directional: direction
+  Vec3f p;          // directional: unit direction to the light; gaussian: the mean of the places
+  Vec3f end;        // of shadow rays: p moved off its surface; directional: direction; gaussian:
+                    // the place nearest to the mean
   Vec3f endBehind;  // spherical: p moved off the other side
-  Vec3f n;          // diffuse, glossy; spherical: geometric normal of the lit side
+  Vec3f n;          // diffuse, glossy, gaussian; spherical: geometric normal of the lit side
   Vec3f axis;       // glossy
   float sharpness = 0;
   // Glossy: exp(sharpness (c - 1)) is exactly 0 in float where c |c| is below this; c is the
-  // cosine to the axis.
+  // cosine to the axis. Gaussian: nothing leaves where it is, c the cosine to n.
   float cutoff = 0;
-  Rgb intensity;          // spherical: power over area
+  float extent = 0;       // gaussian: of the places around p
+  Rgb intensity;          // spherical: power over area; gaussian: a factor
   bool transmits = true;  // spherical: does it light the other side, too?
   SquaredRange reach;     // spherical: of squared distances
   static constexpr uint32_t kNoPattern = 0xffffffffu;
@@ -52,6 +55,8 @@ struct LightBlock {
   const PreparedSphere* spheres[kBlockLights];  // spherical: parallel to lights
   std::vector<PreparedSphere> ownSpheres;       // unless they are shared
   SphereShading sphereShading;
+  PreparedGaussian gaussians[kBlockLights];  // parallel to lights
+  GaussianShading gaussianShading;
   // Of diffuse lights: what they send out in place of a cosine lobe; null: nothing else. Their
   // intensity is its peak (RichRadiance::unpack()).
   const RichRadiance* rich = nullptr;
@@ -59,6 +64,8 @@ struct LightBlock {
   size_t richStride = 0;
 };
 
+// Where a shadow ray to a point of a surface ends.
+Vec3f liftedEnd(Vec3f p, Vec3f n);
 // PreparedLight::cutoff of a glossy light.
 float glossyCutoff(float sharpness);
 // Light group of light `index` of a class.

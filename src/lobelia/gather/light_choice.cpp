@@ -42,6 +42,7 @@ VirtualLights chooseLights(const VirtualLights& lights, std::span<const ChosenLi
   out.specularLimit = lights.specularLimit;
   out.direct = lights.direct;
   out.sphereShading = lights.sphereShading;
+  out.gaussianShading = lights.gaussianShading;
   for (const ChosenLight& choice : chosen) {
     switch (choice.lightClass) {
       case LightClass::omni:
@@ -62,11 +63,16 @@ VirtualLights chooseLights(const VirtualLights& lights, std::span<const ChosenLi
       case LightClass::spherical:
         take(lights.spherical, nullptr, &SphericalLight::power, choice, &out.spherical, nullptr);
         break;
+      case LightClass::gaussian:
+        take(lights.gaussian, nullptr, &GaussianLight::diffuse, choice, &out.gaussian, nullptr);
+        out.gaussian.back().glossy *= choice.scale;
+        break;
     }
   }
   out.diffuseDepthEnds = endsAmong(lights.diffuseDepthEnds, chosen, LightClass::diffuse);
   out.glossyDepthEnds = endsAmong(lights.glossyDepthEnds, chosen, LightClass::glossy);
   out.sphericalDepthEnds = endsAmong(lights.sphericalDepthEnds, chosen, LightClass::spherical);
+  out.gaussianDepthEnds = endsAmong(lights.gaussianDepthEnds, chosen, LightClass::gaussian);
   return out;
 }
 

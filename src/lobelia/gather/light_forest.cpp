@@ -12,6 +12,9 @@ namespace {
 
 constexpr uint64_t kStandsFor = 0x7374616e64;  // of spherical lights that stand for a node
 
+// Sharpness of normals from which on a cluster sends light to one side only.
+constexpr float kFlat = 100;
+
 using trees::BoundItem;
 
 BoundItem itemOf(const OmniLight& light) {
@@ -55,6 +58,20 @@ BoundItem itemOf(const SphericalLight& light, const PreparedSphere& sphere) {
     const PreparedSphere::Gaussian& g = sphere.gaussians[i];
     item.gaussians[i] = {g.axis, g.sharpness, luminance(light.power * g.color)};
   }
+  return item;
+}
+
+// Of the places a sphere that holds nearly all; the leaving light as cosine lobe and Gaussian.
+BoundItem itemOf(const GaussianLight& light) {
+  BoundItem item;
+  item.p = light.mean;
+  item.radius = 3 * std::sqrt(light.covariance[0] + light.covariance[1] + light.covariance[2]);
+  if (light.normalSharpness > kFlat) item.n = light.normal;
+  item.cosine = luminance(light.diffuse) * kInvPi;
+  const float glossy = luminance(light.glossy);
+  if (!(glossy > 0)) return item;
+  item.gaussianCount = 1;
+  item.gaussians[0] = {light.axis, light.sharpness, glossy / lobes::integral(light.sharpness)};
   return item;
 }
 
@@ -136,6 +153,8 @@ BoundItem boundItemOf(const VirtualLights& lights, LightClass lightClass, size_t
       return itemOf(lights.diffuse[index]);
     case LightClass::spherical:
       return itemOf(lights.spherical[index], *sphere);
+    case LightClass::gaussian:
+      return itemOf(lights.gaussian[index]);
     case LightClass::glossy:
       break;
   }
@@ -152,6 +171,8 @@ Rgb lightPower(const VirtualLights& lights, LightClass lightClass, size_t index)
       return lights.diffuse[index].intensity;
     case LightClass::spherical:
       return lights.spherical[index].power;
+    case LightClass::gaussian:
+      return lights.gaussian[index].diffuse + lights.gaussian[index].glossy;
     case LightClass::glossy:
       break;
   }
@@ -203,8 +224,8 @@ void prepareNodes(const VirtualLights& lights, const Scene& scene, const LightFo
     const trees::BoundNode& node = tree.tree.nodes()[nodes[i]];
     if (node.leaf()) continue;
     PreparedLight& light = block->lights[i];
-    if (tree.lightClass == LightClass::spherical) {
-      const Rgb power = lights.spherical[indices[i]].power;
+    if (tree.lightClass == LightClass::spherical || tree.lightClass == LightClass::gaussian) {
+      const Rgb power = lightPower(lights, tree.lightClass, indices[i]);
       light.intensity *= luminance(tree.power[nodes[i]]) / std::max(luminance(power), 1e-30f);
     } else {
       light = merged(node, tree.lightClass, tree.power[nodes[i]]);

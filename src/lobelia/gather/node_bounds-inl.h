@@ -257,6 +257,9 @@ Factor<F> pairBounds(const BoundSide<F>& p, const BoundSide<F>& q, g::BoundForm 
       // The sphere's solid angle over its disc's area is at most 2 / d^2.
       light.upper *= F(2.f);
     }
+    // Fluence is at most intensity over squared distance, wherever the light is in its sphere.
+    if constexpr (kLight == g::LightClass::gaussian)
+      light = lobeFactor<true, true>(q, gap, true, tight);
     result = lobeFactor<!kGlossy, kGlossy>(p, gap, false, tight) * light;
     const F far = gap.leastInverseSquare();
     result.value *= gap.inverseSquare();

@@ -109,8 +109,10 @@ HWY_INLINE Vf nodeImportance(const NodeLanes& node, const g::CutReceivers& recei
   const Vf slack = reach + Vf::load(receivers.normalSlack + lane) * (square * inverseRoot + reach);
   const Vf above = Vf::load(receivers.above + lane), below = Vf::load(receivers.below + lane);
   Mf faces = ((height + slack) * above > Vf(0.f)) | ((height - slack) * below < Vf(0.f));
-  // Of a leaf, n is a unit vector or 0.
-  if (node.anyLeaf) faces = faces & !(node.leaf & (dot(node.n, d) > placeSlack));
+  if (node.anyLeaf) {
+    const Mf oneSided = dot(node.n, node.n) > Vf(trees::kSpreadNormal * trees::kSpreadNormal);
+    faces = faces & !(node.leaf & oneSided & (dot(node.n, d) > placeSlack));
+  }
   if (relativeVariance != nullptr) *relativeVariance = Vf(0.f);
   if (!any(faces)) return Vf(0.f);
 

@@ -45,6 +45,14 @@ HWY_INLINE Vf lightFactor(const g::PreparedLight& light, V3<Vf> wi, Vf inverseDi
   return geometry;
 }
 
+// bumpShadow() of bsdf/bsdf.h.
+HWY_INLINE Vf bumpShadow(const g::PointStrip& strip, size_t lane, V3<Vf> wi) {
+  if (!strip.perturbed) return Vf(1.f);
+  const Vf c = dot(load(strip.base, lane), wi), c2 = max(c * c, Vf(1e-20f));
+  const Vf alpha2 = Vf::load(strip.bumpAlpha2 + lane);
+  return Vf(2.f) / (Vf(1.f) + sqrt(Vf(1.f) + alpha2 * (Vf(1.f) - c2) / c2));
+}
+
 // rich_shading-inl.h
 HWY_INLINE Vf richFactor(const g::RichRadiance& rich, uint32_t index, Vf inverseDistance);
 void applyRich(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, float clamp,
@@ -68,12 +76,7 @@ void directions(const g::PointStrip& strip, size_t lane, const g::LightBlock& bl
                     : lightFactor<kClass>(light, wi, inverseDistance);
     if (g::hasShares(kClass) && strip.near)
       factor = factor * gatheredShare(strip, lane, Vf(1.f) / inverseDistance);
-    if (strip.perturbed) {  // bumpShadow() of bsdf/bsdf.h
-      const Vf c = dot(load(strip.base, lane), wi), c2 = max(c * c, Vf(1e-20f));
-      const Vf alpha2 = Vf::load(strip.bumpAlpha2 + lane);
-      factor = factor * (Vf(2.f) / (Vf(1.f) + sqrt(Vf(1.f) + alpha2 * (Vf(1.f) - c2) / c2)));
-    }
-    factor.store(pairs->factor[i].v);
+    (factor * bumpShadow(strip, lane, wi)).store(pairs->factor[i].v);
     dot(wi, s).store(pairs->wiX[i].v);
     dot(wi, t).store(pairs->wiY[i].v);
     dot(wi, n).store(pairs->wiZ[i].v);
@@ -93,10 +96,20 @@ struct CoatTable {
   }
 };
 
-// Adds one lobe of every pair. `tags` is a LobeTags or a constant that converts to one.
-template <class Tags>
+// A lobe for light from one direction.
+struct PlainLobes {
+  template <class Table>
+  HWY_INLINE V3<Vf> operator()(LobeTags tags, const LobeParameters<Vf>& p, V3<Vf> wo, V3<Vf> wi,
+                               size_t, const Table& table) const {
+    return evaluateLobe(tags, p, wo, wi, table);
+  }
+};
+
+// Adds one lobe of every pair. `tags` is a LobeTags or a constant that converts to one; evaluate:
+// PlainLobes or what is in its place, asked for pair by pair.
+template <class Tags, class Evaluate>
 void addLobe(Tags tags, const g::LobeStrip& lobe, const float* tables, size_t lane, V3<Vf> wo,
-             PairScratch* pairs) {
+             const Evaluate& evaluate, PairScratch* pairs) {
   LobeParameters<Vf> p;
   p.alphaX = Vf::load(lobe.alphaX + lane);
   p.alphaY = Vf::load(lobe.alphaY + lane);
@@ -110,7 +123,7 @@ void addLobe(Tags tags, const g::LobeStrip& lobe, const float* tables, size_t la
   for (size_t i = 0; i < pairs->count; ++i) {
     const V3<Vf> wi{Vf::load(pairs->wiX[i].v), Vf::load(pairs->wiY[i].v),
                     Vf::load(pairs->wiZ[i].v)};
-    const V3<Vf> f = evaluateLobe(LobeTags(tags), p, wo, wi, table);
+    const V3<Vf> f = evaluate(LobeTags(tags), p, wo, wi, i, table);
     (Vf::load(pairs->r[i].v) + f.x).store(pairs->r[i].v);
     (Vf::load(pairs->g[i].v) + f.y).store(pairs->g[i].v);
     (Vf::load(pairs->b[i].v) + f.z).store(pairs->b[i].v);
@@ -129,20 +142,22 @@ struct ConstantTags {
 
 // The frequent kinds get code of their own, in which the compiler moves what depends on the points
 // alone (masking of wo, 1/alpha) out of the loop over lights.
-template <class... Constants>
+template <class... Constants, class Evaluate>
 void addLobeOfKind(const g::LobeStrip& lobe, const float* tables, size_t lane, V3<Vf> wo,
-                   PairScratch* pairs) {
+                   const Evaluate& evaluate, PairScratch* pairs) {
   const auto tryOne = [&]<class C>(C constant) {
     if (!C::equal(lobe)) return false;
-    addLobe(constant, lobe, tables, lane, wo, pairs);
+    addLobe(constant, lobe, tables, lane, wo, evaluate, pairs);
     return true;
   };
   if ((tryOne(Constants()) || ...)) return;
   addLobe(LobeTags{lobe.type, lobe.distribution, lobe.fresnel, lobe.variant}, lobe, tables, lane,
-          wo, pairs);
+          wo, evaluate, pairs);
 }
 
-void addLobes(const g::Tile& tile, const g::PointStrip& strip, size_t lane, PairScratch* pairs) {
+template <class Evaluate = PlainLobes>
+void addLobes(const g::Tile& tile, const g::PointStrip& strip, size_t lane, PairScratch* pairs,
+              const Evaluate& evaluate = {}) {
   using enum LobeType;
   const V3<Vf> wo = load(strip.wo, lane);
   for (size_t i = 0; i < pairs->count; ++i) {
@@ -157,7 +172,7 @@ void addLobes(const g::Tile& tile, const g::PointStrip& strip, size_t lane, Pair
                   ConstantTags<microfacetReflection, Distribution::beckmann, Fresnel::conductor>,
                   ConstantTags<microfacetReflection, Distribution::beckmann, Fresnel::dielectric>,
                   ConstantTags<phong>>(tile.lobes[strip.firstLobe + l], tile.tables.data(), lane,
-                                       wo, pairs);
+                                       wo, evaluate, pairs);
   }
 }
 
@@ -225,7 +240,8 @@ struct LaneValues {
 template <g::LightClass kClass, class Sink, class Out>
 void sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, float clamp,
            PairScratch* pairs, Sink* sink, Out* out) {
-  constexpr bool kClamped = kClass != g::LightClass::directional;
+  constexpr bool kClamped =
+      kClass != g::LightClass::directional && kClass != g::LightClass::gaussian;
   for (size_t i = 0; i < pairs->count; ++i) {
     const g::PreparedLight& light = block.lights[pairs->light[i]];
     Vf factor = Vf::load(pairs->factor[i].v);
@@ -250,6 +266,9 @@ void sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, 
   }
 }
 
+// gaussian-inl.h
+void gaussianPairs(const g::Tile& tile, const g::PointStrip& strip, size_t lane,
+                   const g::LightBlock& block, PairScratch* pairs);
 // spherical-inl.h
 void sphericalPairs(const g::Tile& tile, size_t stripIndex, size_t lane, const g::LightBlock& block,
                     PairScratch* pairs);
@@ -279,6 +298,8 @@ void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
       if (pairs.count == 0) continue;
       if constexpr (kClass == g::LightClass::spherical) {
         sphericalPairs(tile, s, lane, block, &pairs);
+      } else if constexpr (kClass == g::LightClass::gaussian) {
+        gaussianPairs(tile, strip, lane, block, &pairs);
       } else {
         directions<kClass>(strip, lane, block, &pairs);
         addLobes(tile, strip, lane, &pairs);

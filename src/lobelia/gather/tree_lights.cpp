@@ -46,6 +46,17 @@ TreeLight asTreeLight(const trees::BoundItem& item, bool omni) {
   return out;
 }
 
+// By the extent of a cluster. Cosine lobes whose normals disagree are told by the length of their
+// mean.
+void widen(const GaussianLight& light, TreeLight* out) {
+  out->variance = light.covariance[0] + light.covariance[1] + light.covariance[2];
+  out->radius = 3 * std::sqrt(out->variance);
+  const bool oneSided = light.normalSharpness > 1e4f;
+  out->n =
+      light.normal *
+      (oneSided ? 1 : std::min(lobes::meanResultant(light.normalSharpness), trees::kSpreadNormal));
+}
+
 }  // namespace
 
 std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
@@ -80,6 +91,7 @@ std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
                   : asTreeLight(boundItemOf(lights, block.lightClass, index, sphere),
                                 block.lightClass == LightClass::omni);
       if (spherical) light.variance = 0.5f * sphere->squaredRadius;
+      if (block.lightClass == LightClass::gaussian) widen(lights.gaussian[index], &light);
       trees[place] = block.lightClass == LightClass::directional ? kDirectionalTree
                      : light.mostlyGlossy()                      ? 1
                                                                  : 0;

@@ -14,9 +14,11 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <iterator>
 
+#include "lobelia/base/random.h"
 #include "lobelia/gather/facing-inl.h"
 #include "lobelia/gather/kernels.h"
 #include "lobelia/trace/tracer.h"
@@ -193,7 +195,7 @@ class VisiblePairs {
     const g::PointStrip& strip = tile_.strips[s];
     for (size_t lane = 0; lane < g::kStrip; lane += kLanes) {
       const V3<Vf> d = toLight<kClass>(light, load(strip.p, lane));
-      const Mf mask = lightFaces<kClass>(light, d) & receiverFaces(strip, lane, d) &
+      const Mf mask = lightFaces<kClass>(light, d) & receiverFaces(strip, lane, d, light.extent) &
                       beyondNear<kClass>(strip, lane, d) & maskFromBits(candidates >> lane);
       if (!any(mask)) continue;
       if (pairs_.traced != nullptr) {
@@ -204,9 +206,28 @@ class VisiblePairs {
       V3<Vf> end = broadcast(light.end);
       if constexpr (kClass == g::LightClass::spherical)
         end = choose(dot(broadcast(light.n), d) > Vf(0.f), broadcast(light.endBehind), end);
+      if constexpr (kClass == g::LightClass::gaussian)
+        if (block_.gaussianShading.ends == GaussianShading::Ends::random) end = place(l, s, lane);
       use(lane, mask, origin, kInfinite ? end : end - origin);
     }
   }
+
+  // One of a cluster's places for each point, the same whatever tile the point is in.
+  V3<Vf> place(size_t l, size_t s, size_t lane) const {
+    LaneEnds ends;
+    for (size_t k = 0; k < kLanes; ++k) {
+      const Vec3f p = tile_.strips[s].p.get(static_cast<int>(lane + k));
+      const uint64_t key =
+          hashCombine(hashCombine(std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y)),
+                      uint64_t{std::bit_cast<uint32_t>(p.z)} << 32 | block_.index[l]);
+      const Vec3f end = block_.gaussians[l].ends[key % GaussianLight::kPlaces];
+      ends.x[k] = end.x, ends.y[k] = end.y, ends.z[k] = end.z;
+    }
+    return {Vf::load(ends.x), Vf::load(ends.y), Vf::load(ends.z)};
+  }
+  struct LaneEnds {
+    alignas(64) float x[kLanes], y[kLanes], z[kLanes];
+  };
 
   HWY_INLINE static V3<Vf> choose(Mf mask, V3<Vf> a, V3<Vf> b) {
     return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};

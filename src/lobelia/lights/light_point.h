@@ -2,7 +2,9 @@
 // [P001 supplement, section 3.3], and what clusters are made of.
 #pragma once
 
-#include "lobelia/base/vec.h"
+#include <span>
+
+#include "lobelia/lights/virtual_lights.h"
 
 namespace lobelia {
 
@@ -17,5 +19,8 @@ struct LightPoint {
   uint16_t depth = 0;
   float power() const { return luminance(diffuse) + luminance(glossy); }
 };
+
+// The same light as diffuse and glossy lights, for `lights` that have none.
+void addPointLights(std::span<const LightPoint> points, VirtualLights* lights);
 
 }  // namespace lobelia

@@ -78,6 +78,15 @@ LOBELIA_HD F sgProductIntegral(V3<F> axis1, F sharpness1, V3<F> axis2, F sharpne
   return exp(F(0.f) - sharpness1 * sharpness2 * dot(d, d) / sum) * sgIntegral(length);
 }
 
+// Mean of the cosine to the axis, coth s - 1/s.
+template <class F>
+LOBELIA_HD F sgMeanResultant(F sharpness) {
+  const F s2 = sharpness * sharpness;
+  const F series = sharpness * (F(1 / 3.f) + s2 * (F(-1 / 45.f) + s2 * F(2 / 945.f)));
+  const F safe = max(sharpness, F(0.5f)), e = exp(F(-2.f) * safe);
+  return select(sharpness < F(0.5f), series, (F(1.f) + e) / (F(1.f) - e) - F(1.f) / safe);
+}
+
 // Integral over the hemisphere whose normal is at the cosine c to the axis [Tokuyoshi22]; absolute
 // error at most 0.0044 A.
 template <class F>

@@ -19,12 +19,15 @@
 
 namespace lobelia::trees {
 
+// Normals of this length or less are means of several: light may leave on either side.
+inline constexpr float kSpreadNormal = 0.99f;
+
 // A light as the tree takes it.
 struct TreeLight {
   Vec3f p;
   float variance = 0;  // mean square of the distance to p of what the light stands for
   float radius = 0;    // within which of p it may seem to be
-  Vec3f n{};           // light leaves on this side only; 0: on all
+  Vec3f n{};           // light leaves on this side only; 0: on all; see kSpreadNormal
   float diffuse = 0;   // W/sr along n, by cosine; where n is 0, four times the mean over the sphere
   Vec3f axis{0, 0, 1};  // of the Gaussian
   float sharpness = 0;
@@ -34,8 +37,8 @@ struct TreeLight {
 
 // In preorder: the first child of node i is i + 1.
 struct alignas(64) LightNode {  // a cache line
-  Vec3f centre;        // mean of the places, by power
-  float variance = 0;  // mean square distance to it
+  Vec3f centre;                 // mean of the places, by power
+  float variance = 0;           // mean square distance to it
   // Mean by power: its length tells how far the lights' normals agree.
   Vec3f n{};
   float diffuse = 0;

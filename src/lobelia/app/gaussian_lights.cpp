@@ -1,0 +1,158 @@
+#include "lobelia/app/gaussian_lights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lobelia/app/vsgl_options.h"
+#include "lobelia/base/random.h"
+#include "lobelia/lights/filtered_sampling.h"
+#include "lobelia/trees/gaussian_cut.h"
+
+namespace lobelia::app {
+namespace {
+
+// What the extent of a map counts against the scene's size where centres are nearest.
+constexpr float kMapWeight = 0.5f;
+constexpr uint64_t kClusterStream = 0x7673676c;
+
+using Points = std::vector<LightPoint>;
+
+double powerOf(const Points& points) {
+  return std::accumulate(points.begin(), points.end(), 0.0, [](double sum, const LightPoint& p) {
+    return sum + static_cast<double>(p.power());
+  });
+}
+
+// Points that may not be merged with others, one after the other.
+std::vector<Points> apart(Points points, bool byDepth) {
+  const auto key = [&](const LightPoint& p) {
+    return std::pair(p.group, byDepth ? p.depth : std::min<uint16_t>(p.depth, 1));
+  };
+  std::stable_sort(points.begin(), points.end(),
+                   [&](const LightPoint& a, const LightPoint& b) { return key(a) < key(b); });
+  std::vector<Points> kinds;
+  for (const LightPoint& point : points) {
+    if (kinds.empty() || key(kinds.back().front()) != key(point)) kinds.emplace_back();
+    kinds.back().push_back(point);
+  }
+  return kinds;
+}
+
+// A run of points, as a map where they are one, and the lights that it is to have.
+class Clustering {
+ public:
+  Clustering(const Tracer& tracer, const LightSettings& settings, const RenderOptions& options,
+             uint64_t seed)
+      : tracer_(tracer), options_(options), byDepth_(settings.maxDepth >= 0), seed_(seed) {}
+
+  void addPoints(Points points) {
+    for (Points& kind : apart(std::move(points), byDepth_)) add({0, std::move(kind)});
+  }
+  void addMaps(ShadowMaps maps) {
+    for (ReflectiveShadowMap& map : maps.maps) add(std::move(map));
+    for (Points& kind : apart(std::move(maps.others), byDepth_))
+      add(mapOfPoints(std::move(kind), tracer_.bounds()));
+  }
+
+  std::vector<GaussianLight> lights(size_t count) const {
+    std::vector<GaussianLight> all;
+    for (size_t i = 0; i < runs_.size(); ++i) {
+      const double share = total_ > 0 ? powers_[i] / total_ : 0;
+      if (!(share > 0)) continue;
+      const size_t own =
+          static_cast<size_t>(std::max(1.0, std::round(share * static_cast<double>(count))));
+      const std::vector<GaussianLight> lights = cluster(runs_[i], own, hashCombine(seed_, i));
+      all.insert(all.end(), lights.begin(), lights.end());
+    }
+    std::stable_sort(all.begin(), all.end(), [](const GaussianLight& a, const GaussianLight& b) {
+      return a.depth < b.depth;
+    });
+    return all;
+  }
+  size_t pointCount() const {
+    size_t count = 0;
+    for (const ReflectiveShadowMap& run : runs_)
+      count += static_cast<size_t>(std::count_if(
+          run.texels.begin(), run.texels.end(), [](const LightPoint& p) { return p.power() > 0; }));
+    return count;
+  }
+
+ private:
+  void add(ReflectiveShadowMap run) {
+    powers_.push_back(powerOf(run.texels));
+    total_ += powers_.back();
+    runs_.push_back(std::move(run));
+  }
+
+  std::vector<GaussianLight> cluster(const ReflectiveShadowMap& run, size_t count,
+                                     uint64_t seed) const {
+    const float scale = 2 * std::max(tracer_.bounds().radius(), 1e-6f);
+    const bool toksvig = options_.vsglMerging == "toksvig";
+    if (options_.vsglClusters.empty() || options_.vsglClusters == "tree")
+      return trees::cutLights(run.texels, count, scale, toksvig, seed);
+    if (options_.vsglClusters == "kmeans")
+      return clusterLights(run.texels,
+                           nearestCentres(run.texels, count, scale, run.size, kMapWeight, seed),
+                           toksvig, seed);
+    FilteredSampling sampling;
+    sampling.count = count;
+    if (options_.vsglOverlap > 0) sampling.overlap = options_.vsglOverlap;
+    sampling.level = options_.vsglClusters == "fis" ? FilteredSampling::Level::bisection
+                                                    : FilteredSampling::Level::original;
+    sampling.toksvig = toksvig;
+    sampling.seed = seed;
+    return filteredLights(run, sampling);
+  }
+
+  const Tracer& tracer_;
+  const RenderOptions& options_;
+  const bool byDepth_;
+  const uint64_t seed_;
+  std::vector<ReflectiveShadowMap> runs_;  // size 0: in no order
+  std::vector<double> powers_;
+  double total_ = 0;
+};
+
+std::vector<uint32_t> depthEnds(const std::vector<GaussianLight>& lights) {
+  std::vector<uint32_t> ends;
+  for (uint32_t i = 0; i < lights.size(); ++i) {
+    ends.resize(std::max<size_t>(ends.size(), lights[i].depth + size_t{1}), i);
+    ends[lights[i].depth] = i + 1;
+  }
+  return ends;
+}
+
+}  // namespace
+
+VirtualLights makeGaussianLights(const Tracer& tracer, const EmitterSampler& emitters,
+                                 const LightSettings& settings, const RenderOptions& options,
+                                 Context& context) {
+  VirtualLights lights = emitterLights(emitters, settings, context);
+  LightSettings pointSettings = settings;
+  pointSettings.count = vsglPointsOf(options, settings.count);
+  Clustering clustering(tracer, settings, options, hashCombine(lights.seed, kClusterStream));
+  const bool tree = options.vsglClusters.empty() || options.vsglClusters == "tree";
+  if (tree) {
+    clustering.addPoints(makeLightPoints(tracer, emitters, pointSettings, context));
+  } else {
+    clustering.addMaps(makeShadowMaps(tracer, emitters, pointSettings,
+                                      {pointSettings.count, options.vsglViews}, context));
+  }
+  if (context.cancelled()) return lights;
+  const StageTimer timer(context, "lights");
+  lights.gaussian = clustering.lights(settings.count);
+  lights.gaussianDepthEnds = depthEnds(lights.gaussian);
+  lights.gaussianShading = gaussianShadingOf(options);
+  lights.particles = context.statistics.count("light_particles");
+  const size_t points = clustering.pointCount();
+  context.statistics.addCount("light_points", points);
+  context.debug(fmt::format("{} point lights in {} clusters", points, lights.gaussian.size()));
+  if (lights.gaussian.empty())
+    context.warning("no particle left a virtual light: lights give no indirect light");
+  return lights;
+}
+
+}  // namespace lobelia::app

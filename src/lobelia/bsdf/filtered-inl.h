@@ -1,0 +1,152 @@
+// One non-delta lobe under light that arrives as a spherical Gaussian, written once for float and
+// for SIMD registers as kernels-inl.h is: the mean of evaluateLobe() over a von Mises-Fisher lobe
+// of directions around wi.
+//
+//   FilteredDirection<F> from = filteredDirection(wo, wi, sharpness);
+//   V3<F> value = evaluateFiltered(tags, p, wo, from, table);
+//
+// Cosine lobes: their cosine is integrated over the Gaussian (lobes/kernels-inl.h). Microfacets:
+// their slopes' distribution is widened by that of the half vectors, as a matrix: half as wide as
+// the light's directions in the plane of incidence, 1 / (2 cos) across it, so that highlights at
+// grazing angles keep their shape [Tokuyoshi24, section 4]; the rest is evaluated at one direction,
+// times the share of the Gaussian above the horizon. A sharp Gaussian gives evaluateLobe(wi).
+//
+// The matrix is diagonal in a frame turned about the normal, in which the lobe is evaluated; lobes
+// that are no microfacets in slopes (phong, gtr1, sphericalGaussian, transmission) are widened by
+// one number.
+#if defined(LOBELIA_BSDF_FILTERED_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LOBELIA_BSDF_FILTERED_INL_H_
+#undef LOBELIA_BSDF_FILTERED_INL_H_
+#else
+#define LOBELIA_BSDF_FILTERED_INL_H_
+#endif
+
+#include "lobelia/bsdf/kernels-inl.h"
+
+LOBELIA_CORE_BEGIN
+
+template <class F>
+struct FilteredDirection {
+  V3<F> wi;     // unit, mean of the Gaussian
+  F sharpness;  // > 0
+  F cosine;     // mean of the clamped cosine on the side of wo
+  F above;      // share of the Gaussian on that side
+};
+
+// For a Gaussian that is wide enough to be seen as more than a direction.
+template <class F>
+LOBELIA_HD FilteredDirection<F> filteredDirection(V3<F> wo, V3<F> wi, F sharpness) {
+  const F c = select(wo.z < F(0.f), F(0.f) - wi.z, wi.z);
+  const F inverse = F(1.f) / sgIntegral(sharpness);
+  return {wi, sharpness, sgCosineIntegral(c, sharpness) * inverse,
+          min(sgHemisphereIntegral(c, sharpness) * inverse, F(1.f))};
+}
+
+// The direction at which lobes are evaluated that depend on the half vector: wi, lifted above the
+// horizon of `side` (+1 or -1), where most of what counts comes from.
+template <class F>
+LOBELIA_HD V3<F> liftedDirection(V3<F> wi, F side, F cosine) {
+  return unitVector(V3<F>{wi.x, wi.y, side * max(wi.z * side, max(cosine, F(1e-4f)))});
+}
+
+// Squared roughness as slopes of facets have it, and back: it stays below 1 whatever is added
+// [Tokuyoshi24, section 4.2].
+template <class F>
+LOBELIA_HD F projectedRoughness(F alpha) {
+  const F a2 = min(alpha * alpha, F(0.9999f));
+  return a2 / (F(1.f) - a2);
+}
+template <class F>
+LOBELIA_HD F roughnessOfProjected(F squared) {
+  return sqrt(squared / (F(1.f) + squared));
+}
+
+// Widens alphas along the axes in which it is diagonal, and turns both directions to them.
+template <class F>
+LOBELIA_HD void widenByHalfVectors(F sharpness, LobeParameters<F>* p, V3<F>* wo, V3<F>* wi) {
+  const V3<F> h = unitVector(*wo + *wi);
+  const V3<F> t = unitVector(*wi - *wo);
+  const F cosine = dot(h, *wi);
+  const F across = F(1.f) / max(cosine * cosine, F(1e-4f));
+  const F scale = F(0.5f) / sharpness;
+  // t tᵀ, and what is left of the plane across h.
+  const F xx = t.x * t.x, xy = t.x * t.y, yy = t.y * t.y;
+  const F a = scale * (xx + across * max(F(1.f) - h.x * h.x - xx, F(0.f)));
+  const F b = scale * (xy + across * (F(0.f) - h.x * h.y - xy));
+  const F c = scale * (yy + across * max(F(1.f) - h.y * h.y - yy, F(0.f)));
+  const F ax = projectedRoughness(p->alphaX) + a, ay = projectedRoughness(p->alphaY) + c;
+  const F mean = F(0.5f) * (ax + ay), half = F(0.5f) * (ax - ay);
+  const F root = sqrt(half * half + b * b);
+  const F inverse = F(1.f) / max(root, F(1e-20f));
+  // Of the angle to the first axis: cos 2x = half / root.
+  const F cos2 = select(root > F(1e-20f), half * inverse, F(1.f));
+  const F cx = sqrt(max(F(0.5f) * (F(1.f) + cos2), F(0.f)));
+  const F sx = sqrt(max(F(0.5f) * (F(1.f) - cos2), F(0.f))) * select(b < F(0.f), F(-1.f), F(1.f));
+  const auto turned = [&](V3<F> v) { return V3<F>{cx * v.x + sx * v.y, cx * v.y - sx * v.x, v.z}; };
+  *wo = turned(*wo);
+  *wi = turned(*wi);
+  p->alphaX = roughnessOfProjected(mean + root);
+  p->alphaY = roughnessOfProjected(max(mean - root, F(1e-10f)));
+}
+
+// By one number: the geometric mean of both axes.
+template <class F>
+LOBELIA_HD void widenEvenly(F added, LobeParameters<F>* p) {
+  p->alphaX = roughnessOfProjected(projectedRoughness(p->alphaX) + added);
+  p->alphaY = roughnessOfProjected(projectedRoughness(p->alphaY) + added);
+}
+
+template <class F, class Table>
+LOBELIA_HD V3<F> evaluateFiltered(LobeTags tags, LobeParameters<F> p, V3<F> wo,
+                                  const FilteredDirection<F>& from, const Table& table) {
+  const F side = select(wo.z < F(0.f), F(-1.f), F(1.f));
+  V3<F> wi = from.wi;
+  switch (tags.type) {
+    case LobeType::lambert:
+    case LobeType::coatedDiffuse:
+    case LobeType::principledDiffuse:
+      wi.z = side * from.cosine;
+      return evaluateLobe(tags, p, wo, wi, table);
+    case LobeType::diffuseTransmission:
+      // The mean of the cosine without a clamp is what both sides differ by.
+      wi.z = wi.z * sgMeanResultant(from.sharpness) - side * from.cosine;
+      return evaluateLobe(tags, p, wo, wi, table);
+    default:
+      break;
+  }
+  const bool through =
+      tags.type == LobeType::microfacetTransmission || tags.type == LobeType::thinTransmission;
+  if (through) {
+    wi = liftedDirection(wi, F(0.f) - side,
+                         from.cosine - side * wi.z * sgMeanResultant(from.sharpness));
+  } else {
+    wi = liftedDirection(wi, side, from.cosine);
+  }
+  const F above = through ? F(1.f) - from.above : from.above;
+  const F spread = F(1.f) / from.sharpness;  // variance of the light's directions along an axis
+  const bool slopes =
+      tags.type == LobeType::ward ||
+      (tags.type == LobeType::microfacetReflection &&
+       (tags.distribution == Distribution::ggx || tags.distribution == Distribution::beckmann));
+  V3<F> out = wo;
+  if (slopes) {
+    widenByHalfVectors(from.sharpness, &p, &out, &wi);
+  } else if (tags.type == LobeType::phong) {
+    // Around the mirror direction: a Gaussian of sharpness n + 1.
+    const F n = p.alphaX + F(1.f);
+    p.alphaX = max(n * from.sharpness / (n + from.sharpness) - F(1.f), F(0.f));
+  } else if (tags.type == LobeType::microfacetTransmission) {
+    const F eta = select(wo.z < F(0.f), F(1.f) / p.eta.x, p.eta.x);
+    const V3<F> h = wo + wi * eta;
+    widenEvenly(F(2.f) * eta * eta * spread / max(dot(h, h), F(1e-3f)), &p);
+  } else if (tags.type != LobeType::sheen) {
+    const V3<F> mirrored{wi.x, wi.y, through ? F(0.f) - wi.z : wi.z};
+    const F cosine = sqrt(max(F(0.5f) * (F(1.f) + dot(wo, mirrored)), F(1e-2f)));
+    widenEvenly(F(0.5f) * spread / cosine, &p);
+  }
+  return evaluateLobe(tags, p, out, wi, table) * above;
+}
+
+LOBELIA_CORE_END
+
+#endif  // per-target include guard
