@@ -42,11 +42,12 @@ LOBELIA_HD FilteredDirection<F> filteredDirection(V3<F> wo, V3<F> wi, F sharpnes
           min(sgHemisphereIntegral(c, sharpness) * inverse, F(1.f))};
 }
 
-// The direction at which lobes are evaluated that depend on the half vector: wi, lifted above the
-// horizon of `side` (+1 or -1), where most of what counts comes from.
+// The direction at which lobes are evaluated that depend on the half vector: wi, lifted to the mean
+// cosine of the part of the Gaussian that is above the horizon of `side` (+1 or -1).
 template <class F>
-LOBELIA_HD V3<F> liftedDirection(V3<F> wi, F side, F cosine) {
-  return unitVector(V3<F>{wi.x, wi.y, side * max(wi.z * side, max(cosine, F(1e-4f)))});
+LOBELIA_HD V3<F> liftedDirection(V3<F> wi, F side, F cosine, F above) {
+  const F mean = max(cosine, F(1e-4f)) / max(above, F(1e-3f));
+  return unitVector(V3<F>{wi.x, wi.y, side * max(wi.z * side, mean)});
 }
 
 // Squared roughness as slopes of facets have it, and back: it stays below 1 whatever is added
@@ -116,13 +117,10 @@ LOBELIA_HD V3<F> evaluateFiltered(LobeTags tags, LobeParameters<F> p, V3<F> wo,
   }
   const bool through =
       tags.type == LobeType::microfacetTransmission || tags.type == LobeType::thinTransmission;
-  if (through) {
-    wi = liftedDirection(wi, F(0.f) - side,
-                         from.cosine - side * wi.z * sgMeanResultant(from.sharpness));
-  } else {
-    wi = liftedDirection(wi, side, from.cosine);
-  }
   const F above = through ? F(1.f) - from.above : from.above;
+  wi = through ? liftedDirection(wi, F(0.f) - side,
+                                 from.cosine - side * wi.z * sgMeanResultant(from.sharpness), above)
+               : liftedDirection(wi, side, from.cosine, above);
   const F spread = F(1.f) / from.sharpness;  // variance of the light's directions along an axis
   const bool slopes =
       tags.type == LobeType::ward ||
