@@ -30,6 +30,7 @@ constexpr Study kStudies[] = {
     {"convergence", "mean of glossy virtual lights against the path tracer", benchConvergence},
     {"vsl", "virtual spherical lights: figures 1, 2 and 4 to 8 of their paper", benchVsl,
      vslFigures},
+    {"vsgl", "virtual spherical Gaussian lights: sampling, time and cuts", benchVsgl, vsglFigures},
     {"sglc", "spherical-Gaussian lightcuts: table 2 and figures 4 to 9 of their paper", benchSglc,
      sglcFigures},
 };
@@ -72,10 +73,10 @@ void requireOptions(const Study& study, const BenchOptions& options) {
   if (study.figures != nullptr) return;
   if (options.scenes.size() > 1) {
     throw UsageError(
-        fmt::format("bench {} takes one --scene; vsl and sglc take several", options.name));
+        fmt::format("bench {} takes one --scene; vsl, vsgl and sglc take several", options.name));
   }
   if (!options.output.empty() || !options.figures.empty()) {
-    throw UsageError(fmt::format("bench {} has no use for --output or --figures; vsl and sglc have",
+    throw UsageError(fmt::format("bench {} has no use for --output or --figures; vsl, vsgl and sglc have",
                                  options.name));
   }
 }
@@ -108,16 +109,16 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
       ->check(offered(studyNames()))
       ->required();
   c.add_option("--scene", o.scenes,
-               "Run the study on this scene file or built-in scene instead of its own; vsl and "
-               "sglc take several")
+               "Run the study on this scene file or built-in scene instead of its own; vsl, vsgl "
+               "and sglc take several")
       ->type_name("FILE|SCENE")
       ->allow_extra_args(false);
   c.add_option(
        "-o,--output", o.output,
-       "vsl, sglc: folder for pictures and for a page that shows them with the tables; without "
+       "vsl, vsgl, sglc: folder for pictures and for a page that shows them with the tables; without "
        "it vsl renders only the pixels compared")
       ->type_name("FOLDER");
-  c.add_option("--figures", o.figures, "vsl, sglc: figures of the paper; default: all")
+  c.add_option("--figures", o.figures, "vsl, vsgl, sglc: figures of the study; default: all")
       ->type_name("LIST")
       ->check(offered(figureNames()));
   c.add_option("--methods", o.methods,
@@ -140,7 +141,7 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
   c.add_option("--camera", o.camera, "Camera by name or index (from 0)")->type_name("NAME");
   c.add_option("--size", o.size, "WxH in pixels")->type_name("WxH");
   c.add_option("--pixels", o.pixels,
-               "clamp, convergence, vsl, sglc: pixels compared, spread over the image")
+               "clamp, convergence, vsl, vsgl, sglc: pixels compared, spread over the image")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 32));
   c.add_option("--max-depth", o.maxDepth, "As for render; default: the scene's, else unlimited")

@@ -69,6 +69,8 @@ class BenchScene {
   // Another view with a film of the same size: the same pixels are compared.
   void setCamera(const Camera& camera) { camera_ = camera; }
   const Tracer& tracer() const { return tracer_; }
+  const EmitterSampler& emitters() const { return emitters_; }
+  int maxDepth() const { return maxDepth_; }
 
  private:
   using Method = std::function<void(const PixelSet&, Film&)>;

@@ -16,6 +16,8 @@ std::vector<BenchTable> benchClamp(const BenchOptions& options, Context& context
 std::vector<BenchTable> benchConvergence(const BenchOptions& options, Context& context);
 const std::vector<std::string>& vslFigures();  // what --figures may name
 std::vector<BenchTable> benchVsl(const BenchOptions& options, Context& context);
+const std::vector<std::string>& vsglFigures();
+std::vector<BenchTable> benchVsgl(const BenchOptions& options, Context& context);
 const std::vector<std::string>& sglcFigures();
 const std::vector<std::string>& sglcMethodKeys();  // what --methods may name
 std::vector<BenchTable> benchSglc(const BenchOptions& options, Context& context);

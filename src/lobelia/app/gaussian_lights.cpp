@@ -46,7 +46,10 @@ class Clustering {
  public:
   Clustering(const Tracer& tracer, const LightSettings& settings, const RenderOptions& options,
              uint64_t seed)
-      : tracer_(tracer), options_(options), byDepth_(settings.maxDepth >= 0), seed_(seed) {}
+      : tracer_(tracer),
+        options_(options),
+        byDepth_(settings.maxDepth >= 0),
+        seed_(hashCombine(seed, kClusterStream)) {}
 
   void addPoints(Points points) {
     for (Points& kind : apart(std::move(points), byDepth_)) add({0, std::move(kind)});
@@ -125,6 +128,17 @@ std::vector<uint32_t> depthEnds(const std::vector<GaussianLight>& lights) {
   return ends;
 }
 
+bool byTree(const RenderOptions& options) {
+  return options.vsglClusters.empty() || options.vsglClusters == "tree";
+}
+
+void finish(const Clustering& clustering, const LightSettings& settings,
+            const RenderOptions& options, VirtualLights* lights) {
+  lights->gaussian = clustering.lights(settings.count);
+  lights->gaussianDepthEnds = depthEnds(lights->gaussian);
+  lights->gaussianShading = gaussianShadingOf(options);
+}
+
 }  // namespace
 
 VirtualLights makeGaussianLights(const Tracer& tracer, const EmitterSampler& emitters,
@@ -133,9 +147,8 @@ VirtualLights makeGaussianLights(const Tracer& tracer, const EmitterSampler& emi
   VirtualLights lights = emitterLights(emitters, settings, context);
   LightSettings pointSettings = settings;
   pointSettings.count = vsglPointsOf(options, settings.count);
-  Clustering clustering(tracer, settings, options, hashCombine(lights.seed, kClusterStream));
-  const bool tree = options.vsglClusters.empty() || options.vsglClusters == "tree";
-  if (tree) {
+  Clustering clustering(tracer, settings, options, lights.seed);
+  if (byTree(options)) {
     clustering.addPoints(makeLightPoints(tracer, emitters, pointSettings, context));
   } else {
     clustering.addMaps(makeShadowMaps(tracer, emitters, pointSettings,
@@ -143,9 +156,7 @@ VirtualLights makeGaussianLights(const Tracer& tracer, const EmitterSampler& emi
   }
   if (context.cancelled()) return lights;
   const StageTimer timer(context, "lights");
-  lights.gaussian = clustering.lights(settings.count);
-  lights.gaussianDepthEnds = depthEnds(lights.gaussian);
-  lights.gaussianShading = gaussianShadingOf(options);
+  finish(clustering, settings, options, &lights);
   lights.particles = context.statistics.count("light_particles");
   const size_t points = clustering.pointCount();
   context.statistics.addCount("light_points", points);
@@ -153,6 +164,20 @@ VirtualLights makeGaussianLights(const Tracer& tracer, const EmitterSampler& emi
   if (lights.gaussian.empty())
     context.warning("no particle left a virtual light: lights give no indirect light");
   return lights;
+}
+
+void addClusters(const Tracer& tracer, ShadowMaps maps, const LightSettings& settings,
+                 const RenderOptions& options, VirtualLights* lights) {
+  Clustering clustering(tracer, settings, options, lights->seed);
+  if (byTree(options)) {
+    Points all = std::move(maps.others);
+    for (const ReflectiveShadowMap& map : maps.maps)
+      all.insert(all.end(), map.texels.begin(), map.texels.end());
+    clustering.addPoints(std::move(all));
+  } else {
+    clustering.addMaps(std::move(maps));
+  }
+  finish(clustering, settings, options, lights);
 }
 
 }  // namespace lobelia::app

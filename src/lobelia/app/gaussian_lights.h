@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lobelia/app/render_options.h"
-#include "lobelia/lights/light_pass.h"
+#include "lobelia/lights/reflective_shadow_map.h"
 
 namespace lobelia::app {
 
@@ -13,5 +13,9 @@ namespace lobelia::app {
 VirtualLights makeGaussianLights(const Tracer& tracer, const EmitterSampler& emitters,
                                  const LightSettings& settings, const RenderOptions& options,
                                  Context& context);
+
+// The same of given maps, whatever clusters: to `lights`, which has no such lights.
+void addClusters(const Tracer& tracer, ShadowMaps maps, const LightSettings& settings,
+                 const RenderOptions& options, VirtualLights* lights);
 
 }  // namespace lobelia::app

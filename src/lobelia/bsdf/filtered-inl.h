@@ -9,7 +9,8 @@
 // their slopes' distribution is widened by that of the half vectors, as a matrix: half as wide as
 // the light's directions in the plane of incidence, 1 / (2 cos) across it, so that highlights at
 // grazing angles keep their shape [Tokuyoshi24, section 4]; the rest is evaluated at one direction,
-// times the share of the Gaussian above the horizon. A sharp Gaussian gives evaluateLobe(wi).
+// times the share of the Gaussian above the horizon. A sharp Gaussian gives
+// evaluateLobe(wi).
 //
 // The matrix is diagonal in a frame turned about the normal, in which the lobe is evaluated; lobes
 // that are no microfacets in slopes (phong, gtr1, sphericalGaussian, transmission) are widened by
@@ -48,6 +49,16 @@ template <class F>
 LOBELIA_HD V3<F> liftedDirection(V3<F> wi, F side, F cosine, F above) {
   const F mean = max(cosine, F(1e-4f)) / max(above, F(1e-3f));
   return unitVector(V3<F>{wi.x, wi.y, side * max(wi.z * side, mean)});
+}
+
+// Share above the horizon of the product of the light and of a lobe around the mirror direction.
+template <class F>
+LOBELIA_HD F shareAbove(F sharpness, V3<F> wo, const FilteredDirection<F>& from) {
+  const V3<F> mirror{F(0.f) - wo.x, F(0.f) - wo.y, wo.z};
+  const V3<F> v = mirror * sharpness + from.wi * from.sharpness;
+  const F length = max(sqrt(dot(v, v)), F(1e-6f));
+  const F cosine = select(wo.z < F(0.f), F(0.f) - v.z, v.z) / length;
+  return min(sgHemisphereIntegral(cosine, length) / sgIntegral(length), F(1.f));
 }
 
 // Squared roughness as slopes of facets have it, and back: it stays below 1 whatever is added
@@ -117,7 +128,7 @@ LOBELIA_HD V3<F> evaluateFiltered(LobeTags tags, LobeParameters<F> p, V3<F> wo,
   }
   const bool through =
       tags.type == LobeType::microfacetTransmission || tags.type == LobeType::thinTransmission;
-  const F above = through ? F(1.f) - from.above : from.above;
+  F above = through ? F(1.f) - from.above : from.above;
   wi = through ? liftedDirection(wi, F(0.f) - side,
                                  from.cosine - side * wi.z * sgMeanResultant(from.sharpness), above)
                : liftedDirection(wi, side, from.cosine, above);
@@ -131,8 +142,11 @@ LOBELIA_HD V3<F> evaluateFiltered(LobeTags tags, LobeParameters<F> p, V3<F> wo,
     widenByHalfVectors(from.sharpness, &p, &out, &wi);
   } else if (tags.type == LobeType::phong) {
     // Around the mirror direction: a Gaussian of sharpness n + 1.
-    const F n = p.alphaX + F(1.f);
-    p.alphaX = max(n * from.sharpness / (n + from.sharpness) - F(1.f), F(0.f));
+    const F n = p.alphaX + F(1.f), wide = n * from.sharpness / (n + from.sharpness);
+    p.alphaX = max(wide - F(1.f), F(0.f));
+    above = shareAbove(n, wo, from);
+    // With the peak of such a Gaussian; evaluation has (exponent + 2).
+    above = above * (n + F(1.f)) * wide / (n * (p.alphaX + F(2.f)));
   } else if (tags.type == LobeType::microfacetTransmission) {
     const F eta = select(wo.z < F(0.f), F(1.f) / p.eta.x, p.eta.x);
     const V3<F> h = wo + wi * eta;

@@ -9,9 +9,10 @@
 // Deviations, with Form::accurate:
 //  - the variance is projected of the covariance of the places (section 3.2 there takes the trace,
 //    twice what a plane has across the view; GaussianShading::spread);
-//  - diffuse light leaves by the cosine lobe itself, whose normals spread by those of the cluster
-//    and by how far the places turn the view: a leak of 12 % below the horizon, which a Gaussian of
-//    sharpness 2 has, is none;
+//  - diffuse light has the cosine of its lobe towards the point, where a Gaussian of sharpness 2 is
+//    up to 30 % off and leaks 12 % below the horizon: the mean over normals and places of the
+//    cluster. Around that direction it varies as the Gaussian does, which counts where places are
+//    seen over a wide angle;
 //  - fluence is c A(sharpness), without the approximation A = 2 pi / sharpness.
 // The paper's forms are gaussian_paper-inl.h.
 #if defined(LOBELIA_GATHER_GAUSSIAN_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -52,13 +53,12 @@ HWY_INLINE SeenPlaces seenPlaces(const g::PreparedGaussian& light, V3<Vf> p, Vf*
   seen.w = d * inverse;
   const Vf least = seen.distance2 * Vf(1 / kSharpestPlace);
   seen.variance = max(Vf(light.halfTrace) - quadraticForm(light.q, seen.w), least);
-  const Vf wide = seen.variance * (inverse * inverse);
-  seen.sharpness = Vf(1.f) / wide;
+  seen.sharpness = seen.distance2 / seen.variance;
   const V3<Vf> n = broadcast(light.diffuse.axis);
   *cosine = Vf(0.f) - dot(n, seen.w);
-  // The cosine's gradient over the place, and what curves it near by.
+  // By the cosine's gradient over the place.
   const V3<Vf> slope = n + seen.w * *cosine;
-  seen.turn = quadraticForm(light.q, slope) * (inverse * inverse) + Vf(0.25f) * wide * wide;
+  seen.turn = quadraticForm(light.q, slope) * (inverse * inverse);
   return seen;
 }
 
@@ -96,7 +96,21 @@ HWY_INLINE void storeIncoming(GaussianShading::Form form, const g::PointStrip& s
   (fluence * bumpShadow(strip, lane, wi)).store(lobes->fluence[i].v);
 }
 
-// Part that leaves by the cosine lobe: it is pulled out of the product, as wide as it is.
+// The product of the places' Gaussian and of one that leaves, whose value towards the mean is
+// `peak` times exp(-sharpness |w + axis|^2 / 2), but for `known` of that exponent.
+HWY_INLINE void incomingProduct(GaussianShading::Form form, const g::PointStrip& strip, size_t lane,
+                                const SeenPlaces& seen, V3<Vf> axis, Vf leaving, Vf peak, Vf known,
+                                size_t i, PairScratch* pairs, IncomingLobes* lobes) {
+  const V3<Vf> v = seen.w * seen.sharpness - axis * leaving;
+  const Vf length = max(sqrt(dot(v, v)), Vf(1e-6f));
+  const V3<Vf> apart = seen.w + axis;
+  const Vf square = leaving * dot(apart, apart);
+  const Vf exponent = square * (known - seen.sharpness / (length + leaving + seen.sharpness));
+  const Vf fluence = peak * exp(exponent) * (Vf(2.f) / seen.variance) * expRatio(length + length);
+  storeIncoming(form, strip, lane, v * (Vf(1.f) / length), length, fluence, i, pairs, lobes);
+}
+
+// Part that leaves by cosine lobes.
 HWY_INLINE void incomingDiffuse(const g::PointStrip& strip, size_t lane,
                                 const g::PreparedGaussian& light, size_t i, PairScratch* pairs,
                                 IncomingLobes* lobes) {
@@ -106,29 +120,19 @@ HWY_INLINE void incomingDiffuse(const g::PointStrip& strip, size_t lane,
   const Vf normals(light.diffuse.sharpness), turns = Vf(1.f) / max(seen.turn, Vf(1e-7f));
   const Vf together = normals * turns / (normals + turns + Vf(1.f));
   const Vf leaving = sgCosineIntegral(cosine, together) / sgIntegral(together);
-  const Vf fluence =
-      leaving * (Vf(2.f) / seen.variance) * expRatio(seen.sharpness + seen.sharpness);
-  storeIncoming(GaussianShading::Form::accurate, strip, lane, seen.w, seen.sharpness, fluence, i,
-                pairs, lobes);
+  incomingProduct(GaussianShading::Form::accurate, strip, lane, seen, broadcast(light.diffuse.axis),
+                  Vf(kPaperDiffuseSharpness), leaving, Vf(0.5f), i, pairs, lobes);
 }
 
-// Part that leaves by a Gaussian: the product of both (equation 7).
-HWY_INLINE void incomingProduct(GaussianShading::Form form, const g::PointStrip& strip, size_t lane,
-                                const g::PreparedGaussian& light,
-                                const g::PreparedGaussian::Part& part, size_t i, PairScratch* pairs,
-                                IncomingLobes* lobes) {
+// Part that leaves by a Gaussian (equation 7).
+HWY_INLINE void incomingGaussian(GaussianShading::Form form, const g::PointStrip& strip,
+                                 size_t lane, const g::PreparedGaussian& light,
+                                 const g::PreparedGaussian::Part& part, size_t i,
+                                 PairScratch* pairs, IncomingLobes* lobes) {
   Vf cosine(0.f);
   const SeenPlaces seen = seenPlaces(light, load(strip.p, lane), &cosine);
-  const Vf leaving(part.sharpness);
-  const V3<Vf> axis = broadcast(part.axis);
-  const V3<Vf> v = seen.w * seen.sharpness - axis * leaving;
-  const Vf length = max(sqrt(dot(v, v)), Vf(1e-6f));
-  const V3<Vf> apart = seen.w + axis;
-  const Vf exponent =
-      leaving * seen.sharpness * dot(apart, apart) / (length + leaving + seen.sharpness);
-  const Vf fluence =
-      exp(Vf(0.f) - exponent) * (Vf(2.f) / seen.variance) * expRatio(length + length);
-  storeIncoming(form, strip, lane, v * (Vf(1.f) / length), length, fluence, i, pairs, lobes);
+  incomingProduct(form, strip, lane, seen, broadcast(part.axis), Vf(part.sharpness), Vf(1.f),
+                  Vf(0.f), i, pairs, lobes);
 }
 
 template <bool kPaper>
@@ -178,8 +182,8 @@ void gaussianPairsOf(const g::Tile& tile, const g::PointStrip& strip, size_t lan
   const auto glossy = [](const auto& light) -> auto& { return light.glossy; };
   const auto product = [&](const auto& part) {
     return [&, part](const g::PreparedGaussian& light, size_t i) {
-      incomingProduct(block.gaussianShading.form, strip, lane, light, part(light), i, pairs,
-                      &lobes);
+      incomingGaussian(block.gaussianShading.form, strip, lane, light, part(light), i, pairs,
+                       &lobes);
     };
   };
   const auto cosine = [&](const g::PreparedGaussian& light, size_t i) {
