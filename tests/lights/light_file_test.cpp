@@ -49,10 +49,19 @@ class LightFile : public ::testing::Test {
       sphere.coverage[0] = random.nextUint(), sphere.coverage[1] = random.nextUint();
       sphere.depth = i < 300 ? 1 : 2;
       lights.spherical.push_back(sphere);
+      GaussianLight gaussian;
+      gaussian.mean = gaussian.diffuse = p;
+      gaussian.covariance[0] = gaussian.covariance[5] = random.next1D();
+      gaussian.normal = {0, 1, 0}, gaussian.normalSharpness = 3;
+      gaussian.glossy = p * 2.f, gaussian.sharpness = 100 * random.next1D();
+      gaussian.places[3] = {p, random.nextUint()};
+      gaussian.depth = i < 200 ? 1 : 2;
+      lights.gaussian.push_back(gaussian);
     }
     lights.diffuseDepthEnds = {0, 600, 600, 1000};
     lights.glossyDepthEnds = {0, 1000};
     lights.sphericalDepthEnds = {0, 300, 1000};
+    lights.gaussianDepthEnds = {0, 200, 1000};
     return lights;
   }
 
@@ -90,6 +99,8 @@ TEST_F(LightFile, RoundTrip) {
   EXPECT_TRUE(sameBytes(read.diffuse, lights.diffuse));
   EXPECT_TRUE(sameBytes(read.glossy, lights.glossy));
   EXPECT_TRUE(sameBytes(read.spherical, lights.spherical));
+  EXPECT_TRUE(sameBytes(read.gaussian, lights.gaussian));
+  EXPECT_EQ(read.gaussianDepthEnds, lights.gaussianDepthEnds);
   EXPECT_EQ(read.sphericalDepthEnds, lights.sphericalDepthEnds);
   EXPECT_EQ(read.diffuseDepthEnds, lights.diffuseDepthEnds);
   EXPECT_EQ(read.glossyDepthEnds, lights.glossyDepthEnds);
@@ -175,6 +186,27 @@ TEST_F(LightFile, RefusesDamagedAndCutFiles) {
     EXPECT_THROW(loadLights(file_, lights.sceneHash), InputError) << "cut to " << size;
   }
   EXPECT_THROW(loadLights((folder_ / "absent").string(), 0), InputError);
+}
+
+TEST_F(LightFile, RefusesGaussianLightsThatMakeNoSense) {
+  const auto refused = [&](auto&& change, const char* what) {
+    VirtualLights lights = someLights();
+    change(&lights);
+    saveLights(file_, lights);
+    return message(lights.sceneHash).find(what) != std::string::npos;
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussianDepthEnds.back() = 999; }, "depths of the Gauss"));
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussian[7].group = 1; }, "light group 1"));
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussian[7].mean.x = nan; }, "record"));
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussian[7].glossy.x = nan; }, "record"));
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussian[7].covariance[4] = nan; }, "record"));
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussian[7].covariance[1] = -1; }, "record"));
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussian[7].normal = {}; }, "record"));
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussian[7].axis.x = 1; }, "record"));
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussian[7].normalSharpness = -1; }, "record"));
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussian[7].sharpness = nan; }, "record"));
+  EXPECT_TRUE(refused([&](auto* l) { l->gaussian[7].places[2].p.z = nan; }, "record"));
 }
 
 TEST_F(LightFile, RefusesRecordsThatMakeNoSense) {

@@ -112,9 +112,11 @@ TEST(MeanResultant, RoundTrip) {
     const double tolerance = 1e-5 + 1.2e-7 * k;
     EXPECT_NEAR(static_cast<double>(inverseMeanResultant(r)) / k, 1, tolerance) << k;
   }
-  EXPECT_EQ(inverseMeanResultant(0), 0.f);
-  EXPECT_EQ(meanResultant(0), 0.f);
-  EXPECT_TRUE(std::isinf(inverseMeanResultant(1)));
+  EXPECT_EQ(inverseMeanResultant(0.f), 0.f);
+  EXPECT_EQ(meanResultant(0.f), 0.f);
+  EXPECT_TRUE(std::isinf(inverseMeanResultant(1.f)));
+  for (const double kappa : {1e-3, 1.0, 1e3, 1e5, 1e7})
+    EXPECT_NEAR(inverseMeanResultant(meanResultant(kappa)) / kappa, 1, 1e-6) << kappa;
 }
 
 TEST(MeanResultant, IsTheMeanCosine) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lobelia/lights/cluster_sums.h"
+#include "lobelia/lights/map_pyramid.h"
 #include "lobelia/lights/reflective_shadow_map.h"
 
 namespace lobelia {
@@ -17,8 +18,10 @@ struct FilteredSampling {
   bool toksvig = false;
   uint64_t seed = 0;
 };
-// Lights of one map; fewer than `count` where kernels hold no power. The sum of their powers is the
-// map's in the mean over seeds with `bisection`.
+// Level of the kernel around a place that was drawn with this density (of the unit square).
+float kernelLevel(const MapPyramid& map, Vec2f at, float density, const FilteredSampling& sampling);
+// Lights of one map; none where it has no power. With `bisection` each has the same luminance of
+// power, a share 1 / count of the map's.
 std::vector<GaussianLight> filteredLights(const ReflectiveShadowMap& map,
                                           const FilteredSampling& sampling);
 

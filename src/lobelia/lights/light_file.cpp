@@ -14,7 +14,7 @@ namespace lobelia {
 namespace {
 
 constexpr const char* kKind = "virtual-lights";
-constexpr uint32_t kVersion = 5;
+constexpr uint32_t kVersion = 6;
 
 // The chunk "settings".
 struct StoredSettings {
@@ -54,11 +54,22 @@ void checkGroups(const std::string& file, const VirtualLights& lights) {
     for (const uint16_t g : *groups) last = std::max<size_t>(last, g);
   for (const DiffuseLight& l : lights.diffuse) last = std::max<size_t>(last, l.tag >> 8);
   for (const SphericalLight& l : lights.spherical) last = std::max<size_t>(last, l.group);
+  for (const GaussianLight& l : lights.gaussian) last = std::max<size_t>(last, l.group);
   if (last >= std::max<size_t>(lights.groups.size(), 1))
     damaged(file, fmt::format("a light names light group {} of {}", last, lights.groups.size()));
 }
 
 bool isUnit(Vec3f v) { return std::abs(lengthSquared(v) - 1) < 1e-3f; }
+bool isSharpness(float s) { return std::isfinite(s) && s >= 0; }
+
+bool isGood(const GaussianLight& l) {
+  bool good = isFinite(l.mean) && isFinite(l.diffuse) && isFinite(l.glossy) && isUnit(l.normal) &&
+              isUnit(l.axis) && isSharpness(l.normalSharpness) && isSharpness(l.sharpness);
+  for (int i = 0; i < 6; ++i) good &= std::isfinite(l.covariance[i]);
+  for (int i = 0; i < 3; ++i) good &= l.covariance[i] >= 0;
+  for (const GaussianLight::Place& place : l.places) good &= isFinite(place.p);
+  return good;
+}
 
 void checkRecords(const std::string& file, const VirtualLights& lights) {
   bool good = true;
@@ -68,10 +79,11 @@ void checkRecords(const std::string& file, const VirtualLights& lights) {
   for (const DiffuseLight& l : lights.diffuse) good &= isFinite(l.p) && isFinite(l.intensity);
   for (const GlossyLight& l : lights.glossy)
     good &= isFinite(l.p) && isUnit(l.n) && isUnit(l.axis) && isFinite(l.intensity) &&
-            std::isfinite(l.sharpness) && l.sharpness >= 0;
+            isSharpness(l.sharpness);
   for (const SphericalLight& l : lights.spherical)
     good &= isFinite(l.p) && isFinite(l.power) && std::isfinite(l.b1) && std::isfinite(l.b2) &&
             std::isfinite(l.radius) && l.radius > 0;
+  for (const GaussianLight& l : lights.gaussian) good &= isGood(l);
   if (!good) damaged(file, "a light record holds numbers that are not finite or not unit vectors");
 }
 
@@ -96,9 +108,11 @@ void saveLights(const std::string& file, const VirtualLights& lights) {
   writer.add("diffuse", spanOf(lights.diffuse));
   writer.add("glossy", spanOf(lights.glossy));
   writer.add("spherical", spanOf(lights.spherical));
+  writer.add("gaussian", spanOf(lights.gaussian));
   writer.add("diffuse-depths", spanOf(lights.diffuseDepthEnds));
   writer.add("glossy-depths", spanOf(lights.glossyDepthEnds));
   writer.add("spherical-depths", spanOf(lights.sphericalDepthEnds));
+  writer.add("gaussian-depths", spanOf(lights.gaussianDepthEnds));
   std::vector<char> names;  // each ended by a zero
   for (const std::string& name : lights.groups)
     names.insert(names.end(), name.c_str(), name.c_str() + name.size() + 1);
@@ -133,12 +147,15 @@ VirtualLights loadLights(const std::string& file, uint64_t sceneHash) {
   lights.diffuse = reader.get<DiffuseLight>("diffuse");
   lights.glossy = reader.get<GlossyLight>("glossy");
   lights.spherical = reader.get<SphericalLight>("spherical");
+  lights.gaussian = reader.get<GaussianLight>("gaussian");
   lights.diffuseDepthEnds = reader.get<uint32_t>("diffuse-depths");
   lights.glossyDepthEnds = reader.get<uint32_t>("glossy-depths");
   lights.sphericalDepthEnds = reader.get<uint32_t>("spherical-depths");
+  lights.gaussianDepthEnds = reader.get<uint32_t>("gaussian-depths");
   checkDepthEnds(file, "spherical", lights.sphericalDepthEnds, lights.spherical.size());
   checkDepthEnds(file, "diffuse", lights.diffuseDepthEnds, lights.diffuse.size());
   checkDepthEnds(file, "glossy", lights.glossyDepthEnds, lights.glossy.size());
+  checkDepthEnds(file, "Gaussian", lights.gaussianDepthEnds, lights.gaussian.size());
   const std::vector<char> names = reader.get<char>("group-names");
   if (!names.empty() && names.back() != '\0') damaged(file, "the names of light groups do not end");
   for (size_t i = 0; i < names.size(); i += lights.groups.back().size() + 1)

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cassert>
 #include <utility>
 
 #include "lobelia/base/parallel.h"
@@ -27,13 +28,11 @@ const char* nameOf(LightKind kind) {
     case LightKind::glossy:
       return "glossy";
     case LightKind::spherical:
+      return "vsl";
+    case LightKind::gaussian:
       break;
   }
-  return "vsl";
-}
-
-uint64_t seedOf(const LightSettings& settings, const Context& context) {
-  return settings.set == 0 ? context.seed : hashCombine(context.seed, settings.set);
+  return "vsgl";
 }
 
 constexpr uint64_t kPilotStream = 0x70696c6f74ull, kStream = 0x6c6967687473ull;
@@ -115,17 +114,11 @@ std::vector<uint32_t> sortByDepth(const std::vector<ParticleBatch>& batches, con
 
 void countParticles(const std::vector<ParticleBatch>& batches, Context& context) {
   ParticleBatch total;
-  for (const ParticleBatch& b : batches) {
-    total.rays += b.rays, total.cut += b.cut;
-    total.dropped += b.dropped, total.nonFinite += b.nonFinite;
-  }
-  context.statistics.addCount("path_rays", total.rays);
-  context.statistics.addCount("paths_cut", total.cut);
-  context.statistics.addCount("lights_dropped", total.dropped);
-  context.statistics.addCount("nonfinite", total.nonFinite);
+  for (const ParticleBatch& b : batches) total.addCounts(b);
+  total.book(context);
 }
 
-void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, Context& context) {
+void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights) {
   lights->diffuseDepthEnds = sortByDepth(
       batches, [](const ParticleBatch& b) -> auto& { return b.diffuse; },
       [](const ParticleBatch& b, size_t i) -> size_t { return b.diffuse[i].tag & 0xff; },
@@ -141,7 +134,6 @@ void collect(const std::vector<ParticleBatch>& batches, VirtualLights* lights, C
       batches, [](const ParticleBatch& b) -> auto& { return b.spherical; },
       [](const ParticleBatch& b, size_t i) -> size_t { return b.spherical[i].depth; },
       &lights->spherical);
-  countParticles(batches, context);
 }
 
 // Emitters without an area, as lights of depth 0 (area emitters: ParticleWalk::leaveOnEmitter).
@@ -167,11 +159,33 @@ void addEmitters(const EmitterSampler& emitters, const LightSettings& settings, 
     lights->directionalGroups.push_back(emitters.groups().of(light.emitter));
 }
 
+// Do the settings leave anything to particles?
+bool wantsParticles(const EmitterSampler& emitters, const LightSettings& settings) {
+  const int lastDepth = settings.maxDepth < 0 ? kMaxLightDepth : settings.maxDepth - 2;
+  return !emitters.empty() && settings.count > 0 && lastDepth >= (settings.directAsLights ? 0 : 1);
+}
+
+// What as many particles as settings want leave, and their number.
+struct Pass {
+  std::vector<ParticleBatch> batches;
+  uint64_t particles = 0;
+};
+Pass runPass(const Tracer& tracer, const EmitterSampler& emitters, const LightSettings& settings,
+             Context& context) {
+  Pass pass;
+  pass.particles = chooseParticleCount(tracer, emitters, settings, context);
+  const float scale = static_cast<float>(1.0 / static_cast<double>(pass.particles));
+  const ParticleWalk walk(tracer, emitters, settings, seedOf(settings, context), kStream, scale);
+  pass.batches = traceParticles(walk, pass.particles, context, true);
+  countParticles(pass.batches, context);
+  context.statistics.addCount("light_particles", pass.particles);
+  return pass;
+}
+
 }  // namespace
 
-VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
-                         const LightSettings& settings, Context& context) {
-  const StageTimer timer(context, "lights");
+VirtualLights emitterLights(const EmitterSampler& emitters, const LightSettings& settings,
+                            Context& context) {
   VirtualLights lights;
   lights.model = nameOf(settings.kind);
   lights.sphereShading = settings.sphereShading;
@@ -181,28 +195,48 @@ VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
   lights.groups = emitters.groups().names;
   lights.seed = seedOf(settings, context);
   if (settings.directAsLights) addEmitters(emitters, settings, lights.seed, &lights);
-  const int lastDepth = settings.maxDepth < 0 ? kMaxLightDepth : settings.maxDepth - 2;
-  if (emitters.empty() || settings.count == 0 || lastDepth < (settings.directAsLights ? 0 : 1))
-    return lights;
+  return lights;
+}
 
-  const uint64_t particles = chooseParticleCount(tracer, emitters, settings, context);
-  const float scale = static_cast<float>(1.0 / static_cast<double>(particles));
-  const ParticleWalk walk(tracer, emitters, settings, lights.seed, kStream, scale);
-  collect(traceParticles(walk, particles, context, true), &lights, context);
+VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
+                         const LightSettings& settings, Context& context) {
+  assert(settings.kind != LightKind::gaussian);
+  const StageTimer timer(context, "lights");
+  VirtualLights lights = emitterLights(emitters, settings, context);
+  if (!wantsParticles(emitters, settings)) return lights;
+
+  const Pass pass = runPass(tracer, emitters, settings, context);
+  collect(pass.batches, &lights);
   sortByPlace(tracer.bounds(), &lights);
   if (!context.cancelled() && !lights.spherical.empty()) {
     chooseRadii(tracer, settings, &lights, context);
     coverSurfaces(tracer, &lights, context);
   }
-  lights.particles = particles;
-  context.statistics.addCount("light_particles", particles);
+  lights.particles = pass.particles;
   const size_t left = lights.diffuse.size() + lights.glossy.size() + lights.spherical.size();
   if (left == 0 && !context.cancelled())
     context.warning("no particle left a virtual light: lights give no indirect light");
   context.debug(fmt::format("{} particles left {} diffuse, {} glossy and {} spherical lights",
-                            particles, lights.diffuse.size(), lights.glossy.size(),
+                            pass.particles, lights.diffuse.size(), lights.glossy.size(),
                             lights.spherical.size()));
   return lights;
+}
+
+std::vector<LightPoint> makeLightPoints(const Tracer& tracer, const EmitterSampler& emitters,
+                                        const LightSettings& wanted, Context& context) {
+  const StageTimer timer(context, "lights");
+  LightSettings settings = wanted;
+  settings.kind = LightKind::gaussian;
+  std::vector<LightPoint> points;
+  if (!wantsParticles(emitters, settings)) return points;
+  const Pass pass = runPass(tracer, emitters, settings, context);
+  for (const ParticleBatch& b : pass.batches)
+    points.insert(points.end(), b.points.begin(), b.points.end());
+  sortByGroup(&points);
+  if (points.empty() && !context.cancelled())
+    context.warning("no particle left a virtual light: lights give no indirect light");
+  context.debug(fmt::format("{} particles left {} light points", pass.particles, points.size()));
+  return points;
 }
 
 std::vector<Photon> makePhotons(const Tracer& tracer, const EmitterSampler& emitters,
@@ -211,16 +245,10 @@ std::vector<Photon> makePhotons(const Tracer& tracer, const EmitterSampler& emit
   LightSettings settings = wanted;
   settings.photons = true, settings.directAsLights = false;
   std::vector<Photon> photons;
-  if (emitters.empty() || settings.count == 0 || (settings.maxDepth >= 0 && settings.maxDepth < 3))
-    return photons;
-  const uint64_t particles = chooseParticleCount(tracer, emitters, settings, context);
-  const float scale = static_cast<float>(1.0 / static_cast<double>(particles));
-  const ParticleWalk walk(tracer, emitters, settings, seedOf(settings, context), kStream, scale);
-  const std::vector<ParticleBatch> batches = traceParticles(walk, particles, context, true);
-  for (const ParticleBatch& b : batches)
+  if (!wantsParticles(emitters, settings)) return photons;
+  const Pass pass = runPass(tracer, emitters, settings, context);
+  for (const ParticleBatch& b : pass.batches)
     photons.insert(photons.end(), b.photons.begin(), b.photons.end());
-  countParticles(batches, context);
-  context.statistics.addCount("light_particles", particles);
   context.statistics.addCount("photons", photons.size());
   if (photons.empty() && !context.cancelled())
     context.warning("no particle met a surface with rough lobes: there is no indirect light");

@@ -1,6 +1,7 @@
 // Particle pass: virtual lights from every emitter.
 #pragma once
 
+#include "lobelia/lights/light_point.h"
 #include "lobelia/lights/photon.h"
 #include "lobelia/lights/virtual_lights.h"
 #include "lobelia/path/emitter_sampling.h"
@@ -12,6 +13,7 @@ enum class LightKind : uint8_t {
   diffuse,    // their diffuse part (--lights vpl)
   glossy,     // that and spherical Gaussians
   spherical,  // one spherical light for all of them (--lights vsl)
+  gaussian,   // light points, of which clusters are made (--lights vsgl); not for makeLights()
 };
 
 struct LightSettings {
@@ -27,7 +29,8 @@ struct LightSettings {
   int gaussiansPerLobe = 24;  // of the expansion of a BSDF (bsdf/gaussians.h); 1: the paper's form
   bool photons =
       false;  // for makePhotons(), which sets it: particles leave these instead of lights
-  bool everyGaussian = false;  // true: all of them become lights; false: one is drawn per vertex
+  // true: all of them become lights; false: one is drawn per vertex, as always for light points
+  bool everyGaussian = false;
   // Spherical lights: radius over the distance of the tenth neighbour; 0: chosen automatically
   // (spherical_radius.h). radiusScale multiplies either (progressive rendering).
   float radiusFactor = 0, radiusScale = 1;
@@ -40,6 +43,17 @@ struct LightSettings {
 // "lights_dropped" (no power) and "nonfinite"; books seconds to "lights".
 VirtualLights makeLights(const Tracer& tracer, const EmitterSampler& emitters,
                          const LightSettings& settings, Context& context);
+
+// The lights of emitters without an area (directAsLights), with all that makeLights() says about
+// lights; no others.
+VirtualLights emitterLights(const EmitterSampler& emitters, const LightSettings& settings,
+                            Context& context);
+
+// Light points, settings.count about: one per side of a surface with rough lobes that a particle
+// meets, and with directAsLights those on area emitters; whatever settings.kind. Sorted by group,
+// then depth, and the particles' order. Expected sums and statistics as makeLights() has them.
+std::vector<LightPoint> makeLightPoints(const Tracer& tracer, const EmitterSampler& emitters,
+                                        const LightSettings& settings, Context& context);
 
 // Photons: what particles bring to surfaces with rough lobes, settings.count about. Emitters and
 // what lobes make of it are not theirs. Statistics as makeLights() has them, and "photons".

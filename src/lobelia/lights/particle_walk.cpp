@@ -10,6 +10,9 @@
 // which for a diffuse lobe is a cosine lobe around the geometric normal: exact. A Gaussian already
 // holds |cos(w, ns)|; its intensity is corrected by the ratio at its axis, limited to a factor
 // of 2 either way, since the axis of a broad lobe may lie at the horizon.
+//
+// A light point (LightKind::gaussian) holds both parts of what leaves one side of the surface; of
+// several Gaussians one is drawn, whichever side it leaves.
 #include "lobelia/lights/particle_walk.h"
 
 #include <algorithm>
@@ -30,7 +33,54 @@ float energyOf(const GaussianLobe& lobe) {
          lobes::hemisphereIntegral(dot(lobe.axis, lobe.normal), lobe.sharpness);
 }
 
+// One of the Gaussians, drawn in proportion to energy; scale: by which its light stands for that of
+// all.
+struct ChosenGaussian {
+  const GaussianLobe* lobe;
+  float scale;
+};
+std::optional<ChosenGaussian> chooseGaussian(const LobeExpansion& lobes, float u) {
+  float energies[LobeExpansion::kMaxGaussians], total = 0;
+  for (int i = 0; i < lobes.count; ++i)
+    total += energies[i] = std::max(0.f, energyOf(lobes.gaussians[static_cast<size_t>(i)]));
+  if (!(total > 0)) return std::nullopt;
+  float left = u * total;
+  int chosen = 0;
+  while (chosen < lobes.count - 1 && (left >= energies[chosen] || energies[chosen] <= 0))
+    left -= energies[chosen++];
+  while (energies[chosen] <= 0) --chosen;  // rounding may run past the last lobe with energy
+  return ChosenGaussian{&lobes.gaussians[static_cast<size_t>(chosen)], total / energies[chosen]};
+}
+
+GlossyLight glossyLight(const SurfacePoint& at, const Bsdf& bsdf, const GaussianLobe& lobe,
+                        Rgb power) {
+  const Vec3f n = dot(bsdf.ng, lobe.normal) > 0 ? bsdf.ng : -bsdf.ng;
+  const Rgb intensity = power * lobe.amplitude * geometricRatio(lobe, n);
+  return {offsetOrigin(at, n), n, lobe.axis, intensity, lobe.sharpness};
+}
+
+bool isFinite(const GlossyLight& light) {
+  return isFinite(light.p) && isFinite(light.axis) && isFinite(light.intensity) &&
+         light.sharpness >= 0 && std::isfinite(light.sharpness);
+}
+
 }  // namespace
+
+void ParticleBatch::addCounts(const ParticleBatch& other) {
+  rays += other.rays, cut += other.cut;
+  dropped += other.dropped, nonFinite += other.nonFinite;
+}
+
+void ParticleBatch::book(Context& context) const {
+  context.statistics.addCount("path_rays", rays);
+  context.statistics.addCount("paths_cut", cut);
+  context.statistics.addCount("lights_dropped", dropped);
+  context.statistics.addCount("nonfinite", nonFinite);
+}
+
+uint64_t seedOf(const LightSettings& settings, const Context& context) {
+  return settings.set == 0 ? context.seed : hashCombine(context.seed, settings.set);
+}
 
 float geometricRatio(const GaussianLobe& lobe, Vec3f n) {
   const float ratio =
@@ -55,14 +105,18 @@ void ParticleWalk::trace(uint32_t particle, ParticleBatch* out) const {
   const Vec2f uPosition = random.next2D(), uDirection = random.next2D();
   const auto emitted = emitters_.sampleRay(uSelect, uPosition, uDirection);
   if (!emitted) return;
-  Rgb power = emitted->power * scale_;
-  if (settings_.directAsLights) leaveOnEmitter(*emitted, power, out);
+  if (settings_.directAsLights) leaveOnEmitter(*emitted, emitted->power * scale_, out);
+  traceFrom(*emitted, random, out);
+}
+
+void ParticleWalk::traceFrom(const EmittedRay& emitted, Sampler random, ParticleBatch* out) const {
+  Rgb power = emitted.power * scale_;
   const float emittedPower = maxComponent(power);
   if (!isFinite(power)) ++out->nonFinite;
   if (!(emittedPower > 0) || !isFinite(power)) return;
 
-  const uint16_t group = emitters_.groups().of(emitted->emitter);
-  Ray ray = emitted->ray;
+  const uint16_t group = emitters_.groups().of(emitted.emitter);
+  Ray ray = emitted.ray;
   for (int depth = 1; depth <= lastDepth_; ++depth) {
     ++out->rays;
     const auto hit = tracer_.intersect(ray);
@@ -113,8 +167,14 @@ void ParticleWalk::leavePhoton(const SurfacePoint& at, Vec3f wi, Rgb power, Plac
 
 void ParticleWalk::leaveOnEmitter(const EmittedRay& emitted, Rgb power, ParticleBatch* out) const {
   if (emitters_.scene().emitters[emitted.emitter].type != EmitterType::area) return;
-  addDiffuse(emitted.ray.o, emitted.ng, power * kInvPi, {0, emitters_.groups().of(emitted.emitter)},
-             out);
+  const Place place{0, emitters_.groups().of(emitted.emitter)};
+  if (settings_.kind == LightKind::gaussian) {
+    LightPoint point;
+    point.p = emitted.ray.o, point.n = emitted.ng, point.diffuse = power;
+    addPoint(point, place, out);
+  } else {
+    addDiffuse(emitted.ray.o, emitted.ng, power * kInvPi, place, out);
+  }
 }
 
 void ParticleWalk::leaveLights(const Hit& hit, const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi,
@@ -126,6 +186,11 @@ void ParticleWalk::leaveLights(const Hit& hit, const SurfacePoint& at, const Bsd
   const LobeExpansion lobes = expand(bsdf, wi, settings_.gaussiansPerLobe);
   const Vec3f side = dot(wi, bsdf.ng) > 0 ? bsdf.ng : -bsdf.ng;
   const size_t before = out->lightCount();
+  if (settings_.kind == LightKind::gaussian) {
+    leavePoints(at, bsdf, lobes, side, power, place, u, out);
+    if (out->lightCount() == before) ++out->dropped;
+    return;
+  }
   if (maxComponent(lobes.diffuse) > 0)
     addDiffuse(offsetOrigin(at, side), side, power * lobes.diffuse * kInvPi, place, out);
   if (maxComponent(lobes.diffuseTransmitted) > 0)
@@ -158,17 +223,25 @@ void ParticleWalk::leaveGlossy(const SurfacePoint& at, const Bsdf& bsdf, const L
       addGlossy(at, bsdf, lobes.gaussians[static_cast<size_t>(i)], power, place, out);
     return;
   }
-  float energies[LobeExpansion::kMaxGaussians], total = 0;
-  for (int i = 0; i < lobes.count; ++i)
-    total += energies[i] = std::max(0.f, energyOf(lobes.gaussians[static_cast<size_t>(i)]));
-  if (!(total > 0)) return;
-  float left = u * total;
-  int chosen = 0;
-  while (chosen < lobes.count - 1 && (left >= energies[chosen] || energies[chosen] <= 0))
-    left -= energies[chosen++];
-  while (energies[chosen] <= 0) --chosen;  // rounding may run past the last lobe with energy
-  addGlossy(at, bsdf, lobes.gaussians[static_cast<size_t>(chosen)],
-            power * (total / energies[chosen]), place, out);
+  if (const auto chosen = chooseGaussian(lobes, u))
+    addGlossy(at, bsdf, *chosen->lobe, power * chosen->scale, place, out);
+}
+
+void ParticleWalk::leavePoints(const SurfacePoint& at, const Bsdf& bsdf, const LobeExpansion& lobes,
+                               Vec3f side, Rgb power, Place place, float u,
+                               ParticleBatch* out) const {
+  LightPoint near, far;  // on the side that the light comes from, on the other
+  near.p = offsetOrigin(at, side), near.n = side, near.diffuse = power * lobes.diffuse;
+  far.p = offsetOrigin(at, -side), far.n = -side;
+  far.diffuse = power * lobes.diffuseTransmitted;
+  if (const auto chosen = chooseGaussian(lobes, u)) {
+    const GlossyLight glossy = glossyLight(at, bsdf, *chosen->lobe, power * chosen->scale);
+    LightPoint& point = glossy.n == side ? near : far;
+    point.glossy = glossy.intensity * lobes::integral(glossy.sharpness);
+    point.axis = glossy.axis, point.sharpness = glossy.sharpness;
+  }
+  addPoint(near, place, out);
+  addPoint(far, place, out);
 }
 
 void ParticleWalk::addDiffuse(Vec3f p, Vec3f n, Rgb intensity, Place place,
@@ -182,16 +255,25 @@ void ParticleWalk::addDiffuse(Vec3f p, Vec3f n, Rgb intensity, Place place,
 
 void ParticleWalk::addGlossy(const SurfacePoint& at, const Bsdf& bsdf, const GaussianLobe& lobe,
                              Rgb power, Place place, ParticleBatch* out) const {
-  const Vec3f n = dot(bsdf.ng, lobe.normal) > 0 ? bsdf.ng : -bsdf.ng;
-  const Rgb intensity = power * lobe.amplitude * geometricRatio(lobe, n);
-  const GlossyLight light{offsetOrigin(at, n), n, lobe.axis, intensity, lobe.sharpness};
-  if (!isFinite(light.p) || !isFinite(light.axis) || !isFinite(intensity) ||
-      !(lobe.sharpness >= 0) || !std::isfinite(lobe.sharpness)) {
+  const GlossyLight light = glossyLight(at, bsdf, lobe, power);
+  if (!isFinite(light)) {
     ++out->nonFinite;
-  } else if (maxComponent(intensity) > 0) {
+  } else if (maxComponent(light.intensity) > 0) {
     out->glossy.push_back(light);
     out->glossyDepth.push_back(static_cast<uint8_t>(place.depth));
     out->glossyGroup.push_back(place.group);
+  }
+}
+
+void ParticleWalk::addPoint(const LightPoint& point, Place place, ParticleBatch* out) const {
+  if (!isFinite(point.p) || !isFinite(point.n) || !isFinite(point.diffuse) ||
+      !isFinite(point.glossy) || !isFinite(point.axis) || !(point.sharpness >= 0) ||
+      !std::isfinite(point.sharpness)) {
+    ++out->nonFinite;
+  } else if (point.power() > 0) {
+    out->points.push_back(point);
+    out->points.back().depth = static_cast<uint16_t>(place.depth);
+    out->points.back().group = place.group;
   }
 }
 

@@ -24,11 +24,17 @@ struct ParticleBatch {
   std::vector<uint16_t> glossyGroup;
   std::vector<SphericalLight> spherical;
   std::vector<Photon> photons;
+  std::vector<LightPoint> points;
   size_t lightCount() const {
-    return diffuse.size() + glossy.size() + spherical.size() + photons.size();
+    return diffuse.size() + glossy.size() + spherical.size() + photons.size() + points.size();
   }
   uint64_t rays = 0, cut = 0, dropped = 0, nonFinite = 0;
+  void addCounts(const ParticleBatch& other);
+  void book(Context& context) const;  // the counts, as LightSettings' passes name them
 };
+
+// Of the settings' set of lights.
+uint64_t seedOf(const LightSettings& settings, const Context& context);
 
 class ParticleWalk {
  public:
@@ -37,6 +43,11 @@ class ParticleWalk {
                uint64_t seed, uint64_t stream, float scale);
 
   void trace(uint32_t particle, ParticleBatch* out) const;
+  // The same from a given ray on, whose power is multiplied by the scale, without a light on the
+  // emitter; random: of what comes after the emission.
+  void traceFrom(const EmittedRay& emitted, Sampler random, ParticleBatch* out) const;
+  // Light of depth 0, where the ray leaves an area emitter.
+  void leaveOnEmitter(const EmittedRay& emitted, Rgb power, ParticleBatch* out) const;
   // Deepest light that the settings allow; < 1: none but those on emitters.
   int lastDepth() const { return lastDepth_; }
 
@@ -50,16 +61,18 @@ class ParticleWalk {
   }
   void leavePhoton(const SurfacePoint& at, Vec3f wi, Rgb power, Place place,
                    ParticleBatch* out) const;
-  void leaveOnEmitter(const EmittedRay& emitted, Rgb power, ParticleBatch* out) const;
   void leaveLights(const Hit& hit, const SurfacePoint& at, const Bsdf& bsdf, Vec3f wi, Rgb power,
                    Place place, float u, ParticleBatch* out) const;
   void leaveGlossy(const SurfacePoint& at, const Bsdf& bsdf, const LobeExpansion& lobes, Rgb power,
                    Place place, float u, ParticleBatch* out) const;
+  void leavePoints(const SurfacePoint& at, const Bsdf& bsdf, const LobeExpansion& lobes, Vec3f side,
+                   Rgb power, Place place, float u, ParticleBatch* out) const;
   void addSpherical(const Hit& hit, const SurfacePoint& at, Vec3f wi, Rgb power, Place place,
                     ParticleBatch* out) const;
   void addDiffuse(Vec3f p, Vec3f n, Rgb intensity, Place place, ParticleBatch* out) const;
   void addGlossy(const SurfacePoint& at, const Bsdf& bsdf, const GaussianLobe& lobe, Rgb power,
                  Place place, ParticleBatch* out) const;
+  void addPoint(const LightPoint& point, Place place, ParticleBatch* out) const;
 
   const Tracer& tracer_;
   const EmitterSampler& emitters_;

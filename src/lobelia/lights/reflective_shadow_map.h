@@ -29,17 +29,20 @@ struct ShadowMapSettings {
 struct ShadowMaps {
   std::vector<ReflectiveShadowMap> maps;  // light at depth 1
   // What the maps have no texels for: light that leaves the other side of what was met, and light
-  // of greater depths: particles go on from the texels.
+  // of greater depths: particles go on from the texels. With directAsLights also light on area
+  // emitters (depth 0), a point of each view. Sorted as makeLightPoints() does.
   std::vector<LightPoint> others;
 };
 // The mean over seeds of all points is the light of the scene at depths >= 1, as far as settings
-// say. Books and counts as makeLights() does, and "rsm_texels".
+// say (whose count and kind do not matter). Books and counts as makeLights() does, and
+// "rsm_texels": those with power.
 ShadowMaps makeShadowMaps(const Tracer& tracer, const EmitterSampler& emitters,
                           const LightSettings& settings, const ShadowMapSettings& maps,
                           Context& context);
 
 // Any points as a map: texels along a Morton curve of the square have the points along one of
-// space, so that squares of texels hold neighbours. bounds: of the scene.
+// space, so that squares of texels hold neighbours. bounds: of the scene. The map is the smallest
+// that is large enough; texels left over are the last along the curve.
 ReflectiveShadowMap mapOfPoints(std::vector<LightPoint> points, const Bounds3f& bounds);
 
 }  // namespace lobelia

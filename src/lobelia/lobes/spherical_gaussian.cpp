@@ -59,21 +59,24 @@ float productIntegral(const SphericalGaussian& a, const SphericalGaussian& b) {
          core::sgProductIntegral(v3(a.axis), a.sharpness, v3(b.axis), b.sharpness);
 }
 
+double meanResultant(double kappa) { return resultant(kappa).value; }
 float meanResultant(float kappa) {
-  return static_cast<float>(resultant(static_cast<double>(kappa)).value);
+  return static_cast<float>(meanResultant(static_cast<double>(kappa)));
 }
 
 // Banerjee's estimate, then Newton steps: relative error below 1e-5 after two, third for safety.
-float inverseMeanResultant(float r) {
+double inverseMeanResultant(double r) {
   if (!(r > 0)) return 0;
-  if (r >= 1) return std::numeric_limits<float>::infinity();
-  const double target = static_cast<double>(r);
-  double k = target * (3 - target * target) / (1 - target * target);
+  if (r >= 1) return std::numeric_limits<double>::infinity();
+  double k = r * (3 - r * r) / ((1 - r) * (1 + r));
   for (int i = 0; i < 3; ++i) {
     const Resultant at = resultant(k);
-    k = std::max(k - (at.value - target) / at.derivative, 0.1 * k);
+    k = std::max(k - (at.value - r) / at.derivative, 0.1 * k);
   }
-  return static_cast<float>(k);
+  return k;
+}
+float inverseMeanResultant(float r) {
+  return static_cast<float>(inverseMeanResultant(static_cast<double>(r)));
 }
 
 float hemisphereIntegral(float cosine, float sharpness) {

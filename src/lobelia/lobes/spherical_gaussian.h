@@ -22,6 +22,9 @@ SphericalGaussian product(const SphericalGaussian& a, const SphericalGaussian& b
 float productIntegral(const SphericalGaussian& a, const SphericalGaussian& b);
 float meanResultant(float kappa);     // A3 = coth k - 1/k
 float inverseMeanResultant(float r);  // kappa of a mean resultant r in [0,1)
+// In float 1 - r, and with it kappa, is lost for kappa above 1e5; sums of lobes need these.
+double meanResultant(double kappa);
+double inverseMeanResultant(double r);
 // integral of exp(sharpness(axis.w-1)) over the hemisphere with normal at cosine c to the axis
 float hemisphereIntegral(float cosine, float sharpness);  // Tokuyoshi 2022 form, error <= .0044 A
 float cosineIntegral(float cosine, float sharpness);      // times [n.w]+; Tokuyoshi et al. 2024
