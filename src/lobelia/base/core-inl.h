@@ -47,6 +47,7 @@ LOBELIA_CORE_BEGIN
 
 // Scalar twins of the SIMD functions (base/simd-inl.h overloads them for registers).
 LOBELIA_HD float select(bool m, float a, float b) { return m ? a : b; }
+LOBELIA_HD bool any(bool m) { return m; }
 LOBELIA_HD float min(float a, float b) { return a < b ? a : b; }
 LOBELIA_HD float max(float a, float b) { return a > b ? a : b; }
 LOBELIA_HD float abs(float a) { return a < 0 ? -a : a; }

@@ -93,7 +93,6 @@ HWY_INLINE Mf maskFromBits(uint32_t bits) {
 HWY_INLINE Vf gather(const float* base, Vf index) {
   return hn::GatherIndex(Df(), base, hn::ConvertTo(Di(), index.v));
 }
-HWY_INLINE bool any(bool m) { return m; }
 HWY_INLINE bool all(bool m) { return m; }
 
 LOBELIA_CORE_END

@@ -38,9 +38,7 @@ struct FilteredDirection {
 template <class F>
 LOBELIA_HD FilteredDirection<F> filteredDirection(V3<F> wo, V3<F> wi, F sharpness) {
   const F c = select(wo.z < F(0.f), F(0.f) - wi.z, wi.z);
-  const F inverse = F(1.f) / sgIntegral(sharpness);
-  return {wi, sharpness, sgCosineIntegral(c, sharpness) * inverse,
-          min(sgHemisphereIntegral(c, sharpness) * inverse, F(1.f))};
+  return {wi, sharpness, sgCosineMean(c, sharpness), sgShareAbove(c, sharpness)};
 }
 
 // The direction at which lobes are evaluated that depend on the half vector: wi, lifted to the mean
@@ -58,7 +56,7 @@ LOBELIA_HD F shareAbove(F sharpness, V3<F> wo, const FilteredDirection<F>& from)
   const V3<F> v = mirror * sharpness + from.wi * from.sharpness;
   const F length = max(sqrt(dot(v, v)), F(1e-6f));
   const F cosine = select(wo.z < F(0.f), F(0.f) - v.z, v.z) / length;
-  return min(sgHemisphereIntegral(cosine, length) / sgIntegral(length), F(1.f));
+  return sgShareAbove(cosine, length);
 }
 
 // Squared roughness as slopes of facets have it, and back: it stays below 1 whatever is added

@@ -31,13 +31,16 @@ LOBELIA_CORE_BEGIN
 // Directions are as sharp as this at most: for the arithmetic alone.
 inline constexpr float kSharpestPlace = 1e5f;
 
-// The light's places as a point sees them.
+// A Gaussian that is weaker than this by its exponent sends nothing.
+inline constexpr float kFaintExponent = -20;
+
+// The light's places as points see them.
 struct SeenPlaces {
   V3<Vf> w;      // unit, to the mean
-  Vf distance2;  // to the mean, squared
   Vf variance;   // across the view; > 0
-  Vf sharpness;  // distance2 / variance
-  Vf turn;       // variance of the cosine between w and `normal`
+  Vf sharpness;  // squared distance over variance
+  Vf cosine;     // of the light's normal to the point
+  Vf turn;       // variance of that over the places
 };
 
 HWY_INLINE Vf quadraticForm(const float* q, V3<Vf> v) {
@@ -45,28 +48,43 @@ HWY_INLINE Vf quadraticForm(const float* q, V3<Vf> v) {
          v.y * (Vf(q[1]) * v.y + Vf(2 * q[5]) * v.z) + Vf(q[2]) * v.z * v.z;
 }
 
-HWY_INLINE SeenPlaces seenPlaces(const g::PreparedGaussian& light, V3<Vf> p, Vf* cosine) {
+HWY_INLINE SeenPlaces seenPlaces(const g::PreparedGaussian& light, V3<Vf> p) {
   SeenPlaces seen;
   const V3<Vf> d = broadcast(light.mean) - p;
-  seen.distance2 = max(dot(d, d), Vf(1e-20f));
-  const Vf inverse = Vf(1.f) / sqrt(seen.distance2);
+  const Vf distance2 = max(dot(d, d), Vf(1e-20f));
+  const Vf inverse = Vf(1.f) / sqrt(distance2);
   seen.w = d * inverse;
-  const Vf least = seen.distance2 * Vf(1 / kSharpestPlace);
+  const Vf least = distance2 * Vf(1 / kSharpestPlace);
   seen.variance = max(Vf(light.halfTrace) - quadraticForm(light.q, seen.w), least);
-  seen.sharpness = seen.distance2 / seen.variance;
+  seen.sharpness = distance2 / seen.variance;
   const V3<Vf> n = broadcast(light.diffuse.axis);
-  *cosine = Vf(0.f) - dot(n, seen.w);
+  seen.cosine = Vf(0.f) - dot(n, seen.w);
   // By the cosine's gradient over the place.
-  const V3<Vf> slope = n + seen.w * *cosine;
+  const V3<Vf> slope = n + seen.w * seen.cosine;
   seen.turn = quadraticForm(light.q, slope) * (inverse * inverse);
   return seen;
 }
 
-// Incoming light of one part, by light and lane.
+// For both parts of all lights.
+struct PlacesScratch {
+  PairScratch::Lanes v[7][g::kBlockLights];
+  HWY_INLINE void store(const SeenPlaces& seen, size_t i) {
+    const Vf values[] = {seen.w.x,       seen.w.y,    seen.w.z, seen.variance,
+                         seen.sharpness, seen.cosine, seen.turn};
+    for (size_t k = 0; k < 7; ++k) values[k].store(v[k][i].v);
+  }
+  HWY_INLINE SeenPlaces load(size_t i) const {
+    const auto at = [&](size_t k) { return Vf::load(v[k][i].v); };
+    return {{at(0), at(1), at(2)}, at(3), at(4), at(5), at(6)};
+  }
+};
+
+// Incoming light of one part, of the lights that have any, [slot][lane].
 struct IncomingLobes {
+  size_t count = 0;
+  size_t pair[g::kBlockLights];  // of slots, in PairScratch
   PairScratch::Lanes sharpness[g::kBlockLights], cosine[g::kBlockLights], above[g::kBlockLights];
   PairScratch::Lanes fluence[g::kBlockLights];
-  PairScratch::Lanes r[g::kBlockLights], g[g::kBlockLights], b[g::kBlockLights];  // sums
 };
 
 // FilteredDirection as a form has it; fluence may change.
@@ -81,58 +99,59 @@ HWY_INLINE FilteredDirection<Vf> directionFor(GaussianShading::Form form, V3<Vf>
   return {wi, sharpness, max(c, Vf(0.f)), Vf(1.f)};
 }
 
-HWY_INLINE void storeIncoming(GaussianShading::Form form, const g::PointStrip& strip, size_t lane,
-                              V3<Vf> wi, Vf sharpness, Vf fluence, size_t i, PairScratch* pairs,
-                              IncomingLobes* lobes) {
+HWY_INLINE void addIncoming(GaussianShading::Form form, const g::PointStrip& strip, size_t lane,
+                            V3<Vf> wi, Vf sharpness, Vf fluence, size_t i, PairScratch* pairs,
+                            IncomingLobes* lobes) {
   const V3<Vf> local{dot(wi, load(strip.s, lane)), dot(wi, load(strip.t, lane)),
                      dot(wi, load(strip.n, lane))};
   const auto from = directionFor(form, load(strip.wo, lane), local, sharpness, &fluence);
-  local.x.store(pairs->wiX[i].v);
-  local.y.store(pairs->wiY[i].v);
-  local.z.store(pairs->wiZ[i].v);
-  sharpness.store(lobes->sharpness[i].v);
-  from.cosine.store(lobes->cosine[i].v);
-  from.above.store(lobes->above[i].v);
-  (fluence * bumpShadow(strip, lane, wi)).store(lobes->fluence[i].v);
+  const size_t slot = lobes->count++;
+  lobes->pair[slot] = i;
+  local.x.store(pairs->wiX[slot].v);
+  local.y.store(pairs->wiY[slot].v);
+  local.z.store(pairs->wiZ[slot].v);
+  sharpness.store(lobes->sharpness[slot].v);
+  from.cosine.store(lobes->cosine[slot].v);
+  from.above.store(lobes->above[slot].v);
+  (fluence * bumpShadow(strip, lane, wi)).store(lobes->fluence[slot].v);
 }
 
 // The product of the places' Gaussian and of one that leaves, whose value towards the mean is
-// `peak` times exp(-sharpness |w + axis|^2 / 2), but for `known` of that exponent.
-HWY_INLINE void incomingProduct(GaussianShading::Form form, const g::PointStrip& strip, size_t lane,
-                                const SeenPlaces& seen, V3<Vf> axis, Vf leaving, Vf peak, Vf known,
-                                size_t i, PairScratch* pairs, IncomingLobes* lobes) {
+// `peak` times exp(-sharpness |w + axis|^2 / 2), but for `known` of that exponent. Left out where
+// it is faint at all points.
+HWY_INLINE void addProduct(GaussianShading::Form form, const g::PointStrip& strip, size_t lane,
+                           const SeenPlaces& seen, V3<Vf> axis, Vf leaving, Vf peak, Vf known,
+                           size_t i, PairScratch* pairs, IncomingLobes* lobes) {
   const V3<Vf> v = seen.w * seen.sharpness - axis * leaving;
   const Vf length = max(sqrt(dot(v, v)), Vf(1e-6f));
   const V3<Vf> apart = seen.w + axis;
   const Vf square = leaving * dot(apart, apart);
   const Vf exponent = square * (known - seen.sharpness / (length + leaving + seen.sharpness));
+  const Mf seenAtAll = (exponent > Vf(kFaintExponent)) & (peak > Vf(0.f));
+  if (!any(seenAtAll)) return;
   const Vf fluence = peak * exp(exponent) * (Vf(2.f) / seen.variance) * expRatio(length + length);
-  storeIncoming(form, strip, lane, v * (Vf(1.f) / length), length, fluence, i, pairs, lobes);
+  addIncoming(form, strip, lane, v * (Vf(1.f) / length), length,
+              select(seenAtAll, fluence, Vf(0.f)), i, pairs, lobes);
 }
 
 // Part that leaves by cosine lobes.
-HWY_INLINE void incomingDiffuse(const g::PointStrip& strip, size_t lane,
-                                const g::PreparedGaussian& light, size_t i, PairScratch* pairs,
-                                IncomingLobes* lobes) {
-  Vf cosine(0.f);
-  const SeenPlaces seen = seenPlaces(light, load(strip.p, lane), &cosine);
+HWY_INLINE void addDiffuse(const g::PointStrip& strip, size_t lane, const SeenPlaces& seen,
+                           const g::PreparedGaussian::Part& part, size_t i, PairScratch* pairs,
+                           IncomingLobes* lobes) {
   // Spreads add up as squares of angles do; the one of means, k / (k + 1).
-  const Vf normals(light.diffuse.sharpness), turns = Vf(1.f) / max(seen.turn, Vf(1e-7f));
+  const Vf normals(part.sharpness), turns = Vf(1.f) / max(seen.turn, Vf(1e-7f));
   const Vf together = normals * turns / (normals + turns + Vf(1.f));
-  const Vf leaving = sgCosineIntegral(cosine, together) / sgIntegral(together);
-  incomingProduct(GaussianShading::Form::accurate, strip, lane, seen, broadcast(light.diffuse.axis),
-                  Vf(kPaperDiffuseSharpness), leaving, Vf(0.5f), i, pairs, lobes);
+  addProduct(GaussianShading::Form::accurate, strip, lane, seen, broadcast(part.axis),
+             Vf(kPaperDiffuseSharpness), sgCosineMean(seen.cosine, together), Vf(0.5f), i, pairs,
+             lobes);
 }
 
 // Part that leaves by a Gaussian (equation 7).
-HWY_INLINE void incomingGaussian(GaussianShading::Form form, const g::PointStrip& strip,
-                                 size_t lane, const g::PreparedGaussian& light,
-                                 const g::PreparedGaussian::Part& part, size_t i,
-                                 PairScratch* pairs, IncomingLobes* lobes) {
-  Vf cosine(0.f);
-  const SeenPlaces seen = seenPlaces(light, load(strip.p, lane), &cosine);
-  incomingProduct(form, strip, lane, seen, broadcast(part.axis), Vf(part.sharpness), Vf(1.f),
-                  Vf(0.f), i, pairs, lobes);
+HWY_INLINE void addGaussian(GaussianShading::Form form, const g::PointStrip& strip, size_t lane,
+                            const SeenPlaces& seen, const g::PreparedGaussian::Part& part, size_t i,
+                            PairScratch* pairs, IncomingLobes* lobes) {
+  addProduct(form, strip, lane, seen, broadcast(part.axis), Vf(part.sharpness), Vf(1.f), Vf(0.f), i,
+             pairs, lobes);
 }
 
 template <bool kPaper>
@@ -148,56 +167,67 @@ struct IncomingEvaluation {
   }
 };
 
-HWY_INLINE void addTo(PairScratch::Lanes* sum, const PairScratch::Lanes& lobe, Vf factor) {
-  (Vf::load(sum->v) + Vf::load(lobe.v) * factor).store(sum->v);
-}
+// What lights send, by pair and lane.
+struct PairLight {
+  PairScratch::Lanes r[g::kBlockLights], g[g::kBlockLights], b[g::kBlockLights];
+  HWY_INLINE static void add(PairScratch::Lanes* sum, const PairScratch::Lanes& lobe, Vf factor) {
+    (Vf::load(sum->v) + Vf::load(lobe.v) * factor).store(sum->v);
+  }
+};
 
-// For one part of all lights of the block: `incoming` fills IncomingLobes of a light that has it.
+// For one part of all lights of the block: `incoming` adds to IncomingLobes what a light has.
 template <class Part, class Incoming, class Lobes>
 void addPart(const g::Tile& tile, const g::PointStrip& strip, size_t lane,
              const g::LightBlock& block, const Part& part, const Incoming& incoming,
-             const Lobes& evaluate, PairScratch* pairs, IncomingLobes* lobes) {
-  const auto lightOf = [&](size_t i) -> auto& { return block.gaussians[pairs->light[i]]; };
-  bool any = false;
-  for (size_t i = 0; i < pairs->count; ++i) any = any || part(lightOf(i)).any;
-  if (!any) return;
-  for (size_t i = 0; i < pairs->count; ++i) incoming(lightOf(i), i);
+             const Lobes& evaluate, PairScratch* pairs, IncomingLobes* lobes, PairLight* light) {
+  const auto partOf = [&](size_t i) -> const g::PreparedGaussian::Part& {
+    return part(block.gaussians[pairs->light[i]]);
+  };
+  const size_t count = pairs->count;
+  lobes->count = 0;
+  for (size_t i = 0; i < count; ++i)
+    if (partOf(i).any) incoming(partOf(i), i);
+  if (lobes->count == 0) return;
+  pairs->count = lobes->count;
   addLobes(tile, strip, lane, pairs, evaluate);
-  for (size_t i = 0; i < pairs->count; ++i) {
-    const Rgb peak = part(lightOf(i)).peak;
-    const Vf fluence = Vf::load(lobes->fluence[i].v);
-    addTo(&lobes->r[i], pairs->r[i], fluence * Vf(peak.x));
-    addTo(&lobes->g[i], pairs->g[i], fluence * Vf(peak.y));
-    addTo(&lobes->b[i], pairs->b[i], fluence * Vf(peak.z));
+  pairs->count = count;
+  for (size_t slot = 0; slot < lobes->count; ++slot) {
+    const size_t i = lobes->pair[slot];
+    const Rgb peak = partOf(i).peak;
+    const Vf fluence = Vf::load(lobes->fluence[slot].v);
+    PairLight::add(&light->r[i], pairs->r[slot], fluence * Vf(peak.x));
+    PairLight::add(&light->g[i], pairs->g[slot], fluence * Vf(peak.y));
+    PairLight::add(&light->b[i], pairs->b[slot], fluence * Vf(peak.z));
   }
 }
 
 template <bool kPaper>
 void gaussianPairsOf(const g::Tile& tile, const g::PointStrip& strip, size_t lane,
                      const g::LightBlock& block, PairScratch* pairs) {
-  IncomingLobes lobes;
-  for (size_t i = 0; i < pairs->count; ++i)
-    for (auto* sum : {&lobes.r[i], &lobes.g[i], &lobes.b[i]}) Vf(0.f).store(sum->v);
-  const auto diffuse = [](const auto& light) -> auto& { return light.diffuse; };
-  const auto glossy = [](const auto& light) -> auto& { return light.glossy; };
-  const auto product = [&](const auto& part) {
-    return [&, part](const g::PreparedGaussian& light, size_t i) {
-      incomingGaussian(block.gaussianShading.form, strip, lane, light, part(light), i, pairs,
-                       &lobes);
-    };
-  };
-  const auto cosine = [&](const g::PreparedGaussian& light, size_t i) {
-    incomingDiffuse(strip, lane, light, i, pairs, &lobes);
-  };
-  const IncomingEvaluation<kPaper> evaluate{lobes};
-  if constexpr (kPaper) {
-    addPart(tile, strip, lane, block, diffuse, product(diffuse), evaluate, pairs, &lobes);
-  } else {
-    addPart(tile, strip, lane, block, diffuse, cosine, evaluate, pairs, &lobes);
-  }
-  addPart(tile, strip, lane, block, glossy, product(glossy), evaluate, pairs, &lobes);
+  PairLight light;
+  PlacesScratch places;
   for (size_t i = 0; i < pairs->count; ++i) {
-    pairs->r[i] = lobes.r[i], pairs->g[i] = lobes.g[i], pairs->b[i] = lobes.b[i];
+    for (auto* sum : {&light.r[i], &light.g[i], &light.b[i]}) Vf(0.f).store(sum->v);
+    places.store(seenPlaces(block.gaussians[pairs->light[i]], load(strip.p, lane)), i);
+  }
+  IncomingLobes lobes;
+  const IncomingEvaluation<kPaper> evaluate{lobes};
+  const auto diffuse = [](const auto& gaussian) -> auto& { return gaussian.diffuse; };
+  const auto glossy = [](const auto& gaussian) -> auto& { return gaussian.glossy; };
+  const auto byCosine = [&](const g::PreparedGaussian::Part& part, size_t i) {
+    addDiffuse(strip, lane, places.load(i), part, i, pairs, &lobes);
+  };
+  const auto byGaussian = [&](const g::PreparedGaussian::Part& part, size_t i) {
+    addGaussian(block.gaussianShading.form, strip, lane, places.load(i), part, i, pairs, &lobes);
+  };
+  if constexpr (kPaper) {
+    addPart(tile, strip, lane, block, diffuse, byGaussian, evaluate, pairs, &lobes, &light);
+  } else {
+    addPart(tile, strip, lane, block, diffuse, byCosine, evaluate, pairs, &lobes, &light);
+  }
+  addPart(tile, strip, lane, block, glossy, byGaussian, evaluate, pairs, &lobes, &light);
+  for (size_t i = 0; i < pairs->count; ++i) {
+    pairs->r[i] = light.r[i], pairs->g[i] = light.g[i], pairs->b[i] = light.b[i];
     Vf(1.f).store(pairs->factor[i].v);
   }
 }
