@@ -106,6 +106,20 @@ LOBELIA_HD void widenEvenly(F added, LobeParameters<F>* p) {
   p->alphaY = roughnessOfProjected(projectedRoughness(p->alphaY) + added);
 }
 
+// Around the mirror direction, a Gaussian of sharpness n + 1. wi: lifted.
+template <class F, class Table>
+LOBELIA_HD V3<F> evaluateFilteredPhong(LobeTags tags, LobeParameters<F> p, V3<F> wo, V3<F> wi,
+                                       const FilteredDirection<F>& from, const Table& table) {
+  const F n = p.alphaX + F(1.f), wide = n * from.sharpness / (n + from.sharpness);
+  const V3<F> apart{wi.x + wo.x, wi.y + wo.y, wi.z - wo.z};
+  const auto near = wide * dot(apart, apart) < F(40.f);  // else below e^-20 of its peak
+  if (!any(near)) return splat(F(0.f));
+  p.alphaX = max(wide - F(1.f), F(0.f));
+  // With the peak of such a Gaussian; evaluation has (exponent + 2).
+  const F scale = shareAbove(n, wo, from) * (n + F(1.f)) * wide / (n * (p.alphaX + F(2.f)));
+  return evaluateLobe(tags, p, wo, wi, table) * select(near, scale, F(0.f));
+}
+
 template <class F, class Table>
 LOBELIA_HD V3<F> evaluateFiltered(LobeTags tags, LobeParameters<F> p, V3<F> wo,
                                   const FilteredDirection<F>& from, const Table& table) {
@@ -139,12 +153,7 @@ LOBELIA_HD V3<F> evaluateFiltered(LobeTags tags, LobeParameters<F> p, V3<F> wo,
   if (slopes) {
     widenByHalfVectors(from.sharpness, &p, &out, &wi);
   } else if (tags.type == LobeType::phong) {
-    // Around the mirror direction: a Gaussian of sharpness n + 1.
-    const F n = p.alphaX + F(1.f), wide = n * from.sharpness / (n + from.sharpness);
-    p.alphaX = max(wide - F(1.f), F(0.f));
-    above = shareAbove(n, wo, from);
-    // With the peak of such a Gaussian; evaluation has (exponent + 2).
-    above = above * (n + F(1.f)) * wide / (n * (p.alphaX + F(2.f)));
+    return evaluateFilteredPhong(tags, p, wo, wi, from, table);
   } else if (tags.type == LobeType::microfacetTransmission) {
     const F eta = select(wo.z < F(0.f), F(1.f) / p.eta.x, p.eta.x);
     const V3<F> h = wo + wi * eta;
