@@ -76,8 +76,8 @@ void requireOptions(const Study& study, const BenchOptions& options) {
         fmt::format("bench {} takes one --scene; vsl, vsgl and sglc take several", options.name));
   }
   if (!options.output.empty() || !options.figures.empty()) {
-    throw UsageError(fmt::format("bench {} has no use for --output or --figures; vsl, vsgl and sglc have",
-                                 options.name));
+    throw UsageError(fmt::format(
+        "bench {} has no use for --output or --figures; vsl, vsgl and sglc have", options.name));
   }
 }
 
@@ -113,10 +113,10 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
                "and sglc take several")
       ->type_name("FILE|SCENE")
       ->allow_extra_args(false);
-  c.add_option(
-       "-o,--output", o.output,
-       "vsl, vsgl, sglc: folder for pictures and for a page that shows them with the tables; without "
-       "it vsl renders only the pixels compared")
+  c.add_option("-o,--output", o.output,
+               "vsl, vsgl, sglc: folder for pictures and for a page that shows them with the "
+               "tables; without "
+               "it vsl renders only the pixels compared")
       ->type_name("FOLDER");
   c.add_option("--figures", o.figures, "vsl, vsgl, sglc: figures of the study; default: all")
       ->type_name("LIST")

@@ -14,8 +14,10 @@ namespace {
 
 constexpr uint64_t kPixels = 1000;
 constexpr size_t kTexels = size_t{1} << 16;
+constexpr int kEyeSamples = 4;
 constexpr size_t kCounts[] = {2, 4, 16, 64, 256, 1024, 4096};
 constexpr int kOneBounce = 3;
+constexpr uint64_t kRuns = 4;  // of a way and a number: l2 are root mean squares, ratios means
 
 struct Way {
   const char *key, *label;
@@ -95,17 +97,18 @@ class Sampling {
           {"ratio_path", "mean ratio", "{:.4f}"}},
          {},
          {fmt::format(
-             "One bounce (--max-depth {}), {} pixels, one eye sample, a shadow ray to every "
-             "light; l2 against the same gathered from all texels as point lights, and "
-             "against path tracing, two halves of {} samples.",
-             scene_.maxDepth(), scene_.pixelCount(), study_.pathSamples / 2)}});
+             "One bounce (--max-depth {}), {} pixels, {} eye samples, a shadow ray to every light; "
+             "of {} runs. l2 against the same gathered from all texels as point lights, and "
+             "against "
+             "path tracing, two halves of {} samples.",
+             scene_.maxDepth(), scene_.pixelCount(), kEyeSamples, kRuns, study_.pathSamples / 2)}});
   }
 
   static BenchScene::Change change(bool gaussian) {
     return [gaussian](RenderOptions& options) {
       options.lights = gaussian ? "vsgl" : "glossy";
       options.clamp = "off";
-      options.spp = 1;
+      options.spp = kEyeSamples;
     };
   }
 
@@ -122,19 +125,16 @@ class Sampling {
     const double count = static_cast<double>(all.size());
     const Spent spent(study_.context);
     all_ = scene_.withLights(std::move(all), change(false), kVsglSeed, BenchScene::Extent::pixels);
-    row("all texels", std::nan(""), count, std::nan(""), spent.total(), all_);
-  }
-
-  void row(const std::string& label, double wanted, double lights, double make, double gather,
-           const Film& film) {
     if (study_.cancelled()) return;
-    const Comparison texels = compare(film, all_), path = compare(film, path_.first, &path_.second);
-    table().rows.push_back({study_.stem(scene_), label, wanted, lights, make, gather, texels.l2,
-                            texels.meanRatio, path.l2, path.meanRatio});
+    const Comparison path = compare(all_, path_.first, &path_.second);
+    const double none = std::nan("");
+    table().rows.push_back({study_.stem(scene_), "all texels", none, count, none, spent.total(),
+                            none, none, path.l2, path.meanRatio});
   }
 
-  VirtualLights clustered(const Way& way, size_t count) const {
+  VirtualLights clustered(const Way& way, size_t count, uint64_t run = 0) const {
     VirtualLights lights = header();
+    lights.seed = hashCombine(lights.seed, run);
     LightSettings settings = settings_;
     settings.count = count;
     RenderOptions options = options_;
@@ -144,16 +144,28 @@ class Sampling {
   }
 
   void add(const Way& way, size_t count) {
-    const Spent making(study_.context);
-    VirtualLights lights = clustered(way, count);
-    const double make = making.total(),
-                 made = static_cast<double>(
-                     way.points ? std::max(lights.diffuse.size(), lights.glossy.size())
-                                : lights.gaussian.size());
-    const Spent gathering(study_.context);
-    const Film film = scene_.withLights(std::move(lights), change(!way.points), kVsglSeed,
-                                        BenchScene::Extent::pixels);
-    row(way.label, static_cast<double>(count), made, make, gathering.total(), film);
+    double made = 0, make = 0, gather = 0, texels[2] = {}, path[2] = {};
+    for (uint64_t run = 0; run < kRuns && !study_.cancelled(); ++run) {
+      const Spent making(study_.context);
+      VirtualLights lights = clustered(way, count, run);
+      make += making.total() / kRuns;
+      const size_t lightCount = way.points ? std::max(lights.diffuse.size(), lights.glossy.size())
+                                           : lights.gaussian.size();
+      made += static_cast<double>(lightCount) / kRuns;
+      const Spent gathering(study_.context);
+      const Film film = scene_.withLights(std::move(lights), change(!way.points), kVsglSeed,
+                                          BenchScene::Extent::pixels);
+      gather += gathering.total() / kRuns;
+      const auto note = [](const Comparison& error, double* sums) {
+        sums[0] += error.l2 * error.l2 / kRuns, sums[1] += error.meanRatio / kRuns;
+      };
+      if (study_.cancelled()) return;
+      note(compare(film, all_), texels);
+      note(compare(film, path_.first, &path_.second), path);
+    }
+    if (study_.cancelled()) return;
+    table().rows.push_back({study_.stem(scene_), way.label, static_cast<double>(count), made, make,
+                            gather, std::sqrt(texels[0]), texels[1], std::sqrt(path[0]), path[1]});
   }
 
   // What clusters do to a picture: 64 lights by each way, and the path tracer.

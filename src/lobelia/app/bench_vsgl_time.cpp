@@ -12,7 +12,8 @@ namespace {
 
 constexpr uint64_t kTimeLights = 1024;
 constexpr uint64_t kCutPixels = 2000, kCutPoints = 200'000;
-constexpr size_t kCutSizes[] = {32, 64, 128, 256, 512, 1024, 2048};
+constexpr int kCutSamples = 16;
+constexpr size_t kCutSizes[] = {16, 32, 64, 128, 256, 512, 1024};
 constexpr size_t kPointsOfLight[] = {4, 16};
 
 BenchOptions optionsOf(const std::string& scene, const VsglStudy& study) {
@@ -98,11 +99,12 @@ void vsglCuts(const std::string& name, const VsglStudy& study) {
         {"l2", "l2, path tracer", "{:.3f}"},
         {"mean_ratio", "mean ratio", "{:.4f}"}},
        {},
-       {fmt::format("sglc, mode unbiased, {} pixels of a picture of {}x{}, one set of lights, one "
-                    "eye sample, no clamp; VSGLs are clusters of as many points as there are point "
-                    "lights. Path tracing: two halves of {} samples.",
-                    scene.pixelCount(), scene.camera().width, scene.camera().height,
-                    study.pathSamples / 2)}});
+       {fmt::format(
+           "sglc, mode unbiased, {} pixels of a picture of {}x{}, one set of lights, {} "
+           "eye samples, no clamp; VSGLs are clusters of as many points as there are point "
+           "lights. Path tracing: two halves of {} samples.",
+           scene.pixelCount(), scene.camera().width, scene.camera().height, kCutSamples,
+           study.pathSamples / 2)}});
   const uint64_t points = study.options.lightCount > 0 ? study.options.lightCount : kCutPoints;
   std::vector<CutRun> runs{{"points", "glossy", points, 0}};
   for (const size_t share : kPointsOfLight)
@@ -117,7 +119,7 @@ void vsglCuts(const std::string& name, const VsglStudy& study) {
         options.gather = "sglc";
         options.cutMode = "unbiased";
         options.cutSize = cut;
-        options.spp = 1;
+        options.spp = kCutSamples;
         options.lightCount = run.lights;
         options.vsglPoints = run.points;
       };

@@ -54,8 +54,15 @@ class Clustering {
   void addPoints(Points points) {
     for (Points& kind : apart(std::move(points), byDepth_)) add({0, std::move(kind)});
   }
+  // Texels of several views have no square in common: they are ordered by place.
   void addMaps(ShadowMaps maps) {
-    for (ReflectiveShadowMap& map : maps.maps) add(std::move(map));
+    if (maps.maps.size() == 1) {
+      add(std::move(maps.maps.front()));
+    } else {
+      for (const ReflectiveShadowMap& map : maps.maps)
+        maps.others.insert(maps.others.end(), map.texels.begin(), map.texels.end());
+    }
+    std::erase_if(maps.others, [](const LightPoint& p) { return !(p.power() > 0); });
     for (Points& kind : apart(std::move(maps.others), byDepth_))
       add(mapOfPoints(std::move(kind), tracer_.bounds()));
   }
@@ -63,8 +70,8 @@ class Clustering {
   std::vector<GaussianLight> lights(size_t count) const {
     std::vector<GaussianLight> all;
     for (size_t i = 0; i < runs_.size(); ++i) {
-      const double share = total_ > 0 ? powers_[i] / total_ : 0;
-      if (!(share > 0)) continue;
+      if (!(powers_[i] > 0)) continue;
+      const double share = powers_[i] / total_;
       const size_t own =
           static_cast<size_t>(std::max(1.0, std::round(share * static_cast<double>(count))));
       const std::vector<GaussianLight> lights = cluster(runs_[i], own, hashCombine(seed_, i));

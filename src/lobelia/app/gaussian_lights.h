@@ -7,9 +7,9 @@
 
 namespace lobelia::app {
 
-// settings.count: lights aimed at. Points of different light groups, those on emitters and, where
-// paths are limited, those of different depths are clustered apart. Books and counts as
-// makeLights() does, "light_points" and seconds of "lights".
+// settings.count: lights aimed at; each kind has at least one. Points of different light groups,
+// those on emitters and, where paths are limited, those of different depths are clustered apart.
+// Books and counts as makeLights() does, "light_points" and seconds of "lights".
 VirtualLights makeGaussianLights(const Tracer& tracer, const EmitterSampler& emitters,
                                  const LightSettings& settings, const RenderOptions& options,
                                  Context& context);
