@@ -1,0 +1,130 @@
+// `render --lights vsgl` as a user types it.
+#include <cmath>
+
+#include "app/render_test.h"
+#include "lobelia/film/metrics.h"
+
+namespace lobelia {
+namespace {
+
+class VsglRender : public test::RenderTest {};
+
+TEST_F(VsglRender, ComesNearerToThePathTracerWithMoreLights) {
+  const std::string base = "--size 48x40 --component indirect --spp 16 ";
+  const Film path =
+      render("--size 48x40 --component indirect --lights path --spp 512 --seed 9", "p");
+  double before = 1e9;
+  for (const int lights : {4, 32, 256}) {
+    const Film film =
+        render(base + "--lights vsgl --passes 1 --num-lights " + std::to_string(lights),
+               "v" + std::to_string(lights));
+    const Comparison error = compare(film, path);
+    EXPECT_LT(error.l2, before) << lights;
+    before = error.l2;
+    if (lights == 256) EXPECT_NEAR(error.meanRatio, 1, 0.03);
+    const nlohmann::json s = statistics("v" + std::to_string(lights));
+    EXPECT_NEAR(s["lights"]["vsgl"].get<double>(), lights, 2);
+    EXPECT_EQ(s["lights"]["glossy"], 0);
+    EXPECT_EQ(s["counts"]["nonfinite"], 0);
+    EXPECT_GT(s["counts"]["light_points"], 10000);
+  }
+  EXPECT_LT(before, 0.1);
+}
+
+TEST_F(VsglRender, EveryWayOfClusteringGivesTheLight) {
+  const std::string base = "--size 48x40 --component indirect --max-depth 3 ";
+  const Film path = render(base + "--lights path --spp 512 --seed 9", "p");
+  for (const char* clusters : {"tree", "kmeans", "fis", "fis-original"}) {
+    const Film film = render(
+        base + "--lights vsgl --spp 16 --num-lights 256 --vsgl-clusters " + clusters, clusters);
+    const Comparison error = compare(film, path);
+    EXPECT_LT(error.l2, 0.15) << clusters;
+    // Kernels by the density at their centres make or lose power.
+    EXPECT_NEAR(error.meanRatio, 1, std::string(clusters) == "fis-original" ? 0.2 : 0.04)
+        << clusters;
+  }
+}
+
+TEST_F(VsglRender, FormsAgreeRoughly) {
+  const std::string base =
+      "--size 32x24 --component indirect --spp 4 --lights vsgl --num-lights 128 ";
+  const Film ours = render(base, "ours");
+  for (const char* form : {"--vsgl-shading product --vsgl-merging toksvig",
+                           "--vsgl-shading pulled --vsgl-merging toksvig",
+                           "--vsgl-variance isotropic --vsgl-spread 1", "--vsgl-shadows mean"}) {
+    const Comparison error = compare(render(base + form, "form"), ours);
+    EXPECT_GT(error.l2, 0.001) << form;  // it does something
+    EXPECT_LT(error.l2, 0.35) << form;
+    EXPECT_NEAR(error.meanRatio, 1, 0.15) << form;
+  }
+}
+
+TEST_F(VsglRender, FewShadowRaysHaveTheMeanOfAll) {
+  const std::string base =
+      "--size 48x40 --component indirect --lights vsgl --num-lights 256 --passes 1 ";
+  const Film all = render(base + "--spp 16", "all");
+  const Film some = render(base + "--spp 16 --vsgl-shadows 8", "some");
+  const Film none = render(base + "--spp 1 --vsgl-shadows none", "none");
+  EXPECT_NEAR(compare(some, all).meanRatio, 1, 0.01);
+  EXPECT_LT(compare(some, all).l2, 0.1);
+  EXPECT_GT(compare(none, all).meanRatio, 1.02);
+  EXPECT_LE(statistics("some")["counts"]["shadow_rays"].get<double>(), 48 * 40 * 16 * 8);
+  EXPECT_LT(statistics("none")["counts"]["rays_per_pixel"].get<double>(), 20);
+}
+
+TEST_F(VsglRender, OtherStrategiesGatherTheSame) {
+  const std::string base =
+      "--size 48x40 --component indirect --spp 16 --lights vsgl --num-lights 512 --passes 1 ";
+  const Film all = render(base, "all");
+  for (const char* gather :
+       {"sglc --sglc-mode unbiased --cut-size 256", "sglc --sglc-mode shared --cut-size 256",
+        "sglc --sglc-mode paper", "mrcs --columns 400"}) {
+    const Comparison error = compare(render(base + "--gather " + gather, "g"), all);
+    EXPECT_LT(error.l2, 0.12) << gather;
+    EXPECT_NEAR(error.meanRatio, 1, 0.02) << gather;
+  }
+}
+
+TEST_F(VsglRender, EmittersAreLightsToo) {
+  const std::string base = "--size 48x40 --spp 16 ";
+  const Film nee = render(base + "--lights path --spp 256 --component direct", "nee");
+  const Film lights =
+      render(base + "--lights vsgl --num-lights 512 --direct lights --component direct", "l");
+  EXPECT_NEAR(compare(lights, nee).meanRatio, 1, 0.03);
+  EXPECT_LT(compare(lights, nee).l2, 0.15);
+}
+
+TEST_F(VsglRender, SavedLightsRenderTheSame) {
+  const std::string file = folder_ / "lights";
+  const std::string base = "--size 32x24 --spp 2 --lights vsgl --num-lights 64 --passes 1 ";
+  const Film first = render(base + "--save-lights " + file, "a");
+  const Film second = render(base + "--load-lights " + file, "b");
+  EXPECT_EQ(first.layers.at("").values, second.layers.at("").values);
+}
+
+TEST_F(VsglRender, ThreadsDoNotMatter) {
+  for (const char* more : {"--vsgl-clusters tree", "--vsgl-clusters fis --vsgl-shadows 4",
+                           "--vsgl-clusters kmeans --gather sglc"}) {
+    const std::string base =
+        std::string("--size 32x24 --spp 2 --lights vsgl --num-lights 64 ") + more;
+    EXPECT_EQ(render(base + " --threads 1", "one").layers.at("").values,
+              render(base + " --threads 2", "two").layers.at("").values)
+        << more;
+  }
+}
+
+TEST_F(VsglRender, BadSettingsSayWhatIsRight) {
+  expectError("--lights vsgl --gather lightcuts", "it does with all, mrcs, sglc");
+  expectError("--lights vsgl --vsgl-clusters trees", "did you mean 'tree'");
+  expectError("--lights vsgl --vsgl-views 4", "--vsgl-clusters kmeans, fis and fis-original");
+  expectError("--lights vsgl --vsgl-clusters kmeans --vsgl-overlap 2", "do not overlap");
+  expectError("--lights vsgl --vsgl-shadows 0", "from 1 to 4096");
+  expectError("--lights vsgl --vsgl-shadows 4 --gather sglc", "--gather all");
+  expectError("--lights vsgl --vsgl-shadows 4 --aov groups", "--vsgl-shadows 4 traces some");
+  expectError("--lights vsgl --vsgl-spread 0", "a finite number above 0");
+  expectError("--lights vsgl --num-lights 0", "--num-lights");
+  expectError("--lights vsgll", "vsgl");
+}
+
+}  // namespace
+}  // namespace lobelia
