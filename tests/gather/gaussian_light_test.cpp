@@ -273,13 +273,16 @@ TEST(GaussianShadows, FewRaysPerReceiverGiveTheSameMean) {
     }
   }
   size_t darker = 0, beyond = 0, lit = 0;
+  double mean = 0, whole = 0;
   for (size_t i = 0; i < all.size(); ++i) {
     const double truth = static_cast<double>(luminance(all[i]));
     const double error = std::sqrt(std::max(square[i] - sum[i] * sum[i], 0.0) / (kRuns - 1));
     if (truth > 0) ++lit;
+    mean += sum[i], whole += truth;
     if (luminance(none[i]) > 1.01f * luminance(all[i])) ++darker;
     if (std::abs(sum[i] - truth) > 4 * error + 1e-5 * truth) ++beyond;
   }
+  EXPECT_NEAR(mean, whole, 0.01 * whole);
   EXPECT_GT(darker, 100u);
   EXPECT_GT(lit, 150u);
   EXPECT_LE(beyond, 3u);

@@ -11,7 +11,7 @@ struct BenchOptions {
   std::vector<std::string> scenes;  // of the study instead of its own; most take one
   SceneOptions scene;               // scene.scene: the first of them; empty: the study's own
   std::string size, camera, json;
-  std::string figures, output;  // vsl, sglc: "" all figures; "": no pictures
+  std::string figures, output;  // vsl, vsgl, sglc: "" all figures; "": no pictures
   std::string methods;          // sglc: "" all
   std::string commandLine;
   int maxDepth = 0;     // 0: the scene's

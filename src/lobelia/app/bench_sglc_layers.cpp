@@ -22,6 +22,8 @@ const char* wordsOf(char light) {
       return "diffuse";
     case 's':
       return "glossy";
+    case 'g':
+      return "spherical Gaussian";
     default:
       return "spherical";
   }

@@ -10,6 +10,7 @@
 
 #include "lobelia/app/gather_options.h"
 #include "lobelia/app/light_sets.h"
+#include "lobelia/app/vsgl_options.h"
 #include "lobelia/base/file.h"
 #include "lobelia/gather/simd_target.h"
 #include "lobelia/version.h"
@@ -178,6 +179,18 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--vsl-indicator", o.sphereIndicator);
     s.emplace_back("--vsl-sampling", o.sphereSampling);
     s.emplace_back("--vsl-samples", std::to_string(o.sphereSamples));
+  }
+  if (o.lights == "vsgl") {
+    const GaussianShading shading = gaussianShadingOf(o);
+    s.emplace_back("--vsgl-clusters", o.vsglClusters.empty() ? "tree" : o.vsglClusters);
+    s.emplace_back("--vsgl-points", std::to_string(o.vsglPoints));
+    s.emplace_back("--vsgl-views", std::to_string(o.vsglViews));
+    s.emplace_back("--vsgl-overlap", fmt::format("{}", o.vsglOverlap > 0 ? o.vsglOverlap : 1));
+    s.emplace_back("--vsgl-shading", o.vsglShading.empty() ? "accurate" : o.vsglShading);
+    s.emplace_back("--vsgl-variance", shading.projected ? "projected" : "isotropic");
+    s.emplace_back("--vsgl-spread", fmt::format("{}", shading.spread));
+    s.emplace_back("--vsgl-merging", shading.toksvig ? "toksvig" : "exact");
+    s.emplace_back("--vsgl-shadows", o.vsglShadows.empty() ? "mean" : o.vsglShadows);
   }
   if (o.lights == "richvpl") {
     s.emplace_back("--richvpl-lights", std::to_string(richLightsOf(o)));

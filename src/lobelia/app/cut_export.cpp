@@ -55,7 +55,7 @@ void requireCutExport(const RenderOptions& options) {
   if (options.exportTrees.empty()) return;
   if (options.lights == "photon")
     throw UsageError(
-        "--export-trees: --lights photon has no virtual lights; use vpl, glossy or vsl");
+        "--export-trees: --lights photon has no virtual lights; use vpl, glossy, vsl or vsgl");
   if (options.frames > 0 || options.turntable)
     throw UsageError("--export-trees is for one picture: leave out --frames and --turntable");
   if (!options.checkpoint.empty() || !options.resume.empty())

@@ -63,7 +63,7 @@ void requireRadiance(const RenderOptions& options) {
 void requireGather(const RenderOptions& options) {
   if (options.gather != "all" && (options.lights == "path" || options.lights == "light")) {
     throw UsageError(fmt::format(
-        "--gather {} gathers virtual lights and --lights {} has none; use vpl, glossy or vsl",
+        "--gather {} gathers virtual lights and --lights {} has none; use vpl, glossy, vsl or vsgl",
         options.gather, options.lights));
   }
   struct Owned {

@@ -41,6 +41,15 @@ std::vector<Points> apart(Points points, bool byDepth) {
   return kinds;
 }
 
+// A cluster of few points stands for the surface around them: its places vary by a quarter of what
+// those of all do in the mean, as trees have it by their parents (trees/gaussian_cut.cpp).
+void widenSmall(std::vector<GaussianLight>* lights) {
+  double sum = 0;
+  for (const GaussianLight& light : *lights) sum += static_cast<double>(light.variance());
+  const float least = static_cast<float>(0.25 * sum / static_cast<double>(lights->size()));
+  for (GaussianLight& light : *lights) widen(least, &light);
+}
+
 // A run of points, as a map where they are one, and the lights that it is to have.
 class Clustering {
  public:
@@ -103,10 +112,13 @@ class Clustering {
     const bool toksvig = options_.vsglMerging == "toksvig";
     if (options_.vsglClusters.empty() || options_.vsglClusters == "tree")
       return trees::cutLights(run.texels, count, scale, toksvig, seed);
-    if (options_.vsglClusters == "kmeans")
-      return clusterLights(run.texels,
-                           nearestCentres(run.texels, count, scale, run.size, kMapWeight, seed),
-                           toksvig, seed);
+    if (options_.vsglClusters == "kmeans") {
+      const Clusters clusters = nearestCentres(run.texels, count, scale, run.size,
+                                               run.inOrderOfPlace ? 0 : kMapWeight, seed);
+      std::vector<GaussianLight> lights = clusterLights(run.texels, clusters, toksvig, seed);
+      widenSmall(&lights);
+      return lights;
+    }
     FilteredSampling sampling;
     sampling.count = count;
     if (options_.vsglOverlap > 0) sampling.overlap = options_.vsglOverlap;
@@ -121,7 +133,7 @@ class Clustering {
   const RenderOptions& options_;
   const bool byDepth_;
   const uint64_t seed_;
-  std::vector<ReflectiveShadowMap> runs_;  // size 0: in no order
+  std::vector<ReflectiveShadowMap> runs_;  // of trees: of size 0, in no order
   std::vector<double> powers_;
   double total_ = 0;
 };
@@ -152,6 +164,7 @@ VirtualLights makeGaussianLights(const Tracer& tracer, const EmitterSampler& emi
                                  const LightSettings& settings, const RenderOptions& options,
                                  Context& context) {
   VirtualLights lights = emitterLights(emitters, settings, context);
+  const uint64_t before = context.statistics.count("light_particles");
   LightSettings pointSettings = settings;
   pointSettings.count = vsglPointsOf(options, settings.count);
   Clustering clustering(tracer, settings, options, lights.seed);
@@ -164,12 +177,10 @@ VirtualLights makeGaussianLights(const Tracer& tracer, const EmitterSampler& emi
   if (context.cancelled()) return lights;
   const StageTimer timer(context, "lights");
   finish(clustering, settings, options, &lights);
-  lights.particles = context.statistics.count("light_particles");
+  lights.particles = context.statistics.count("light_particles") - before;
   const size_t points = clustering.pointCount();
   context.statistics.addCount("light_points", points);
   context.debug(fmt::format("{} point lights in {} clusters", points, lights.gaussian.size()));
-  if (lights.gaussian.empty())
-    context.warning("no particle left a virtual light: lights give no indirect light");
   return lights;
 }
 

@@ -49,8 +49,9 @@ float nearFieldRadii(const RenderOptions& options) {
 // Spherical lights alone: others have no near field.
 VirtualLights nearLights(VirtualLights lights) {
   lights.omni = {}, lights.directional = {}, lights.diffuse = {}, lights.glossy = {};
+  lights.gaussian = {};
   lights.omniGroups = {}, lights.directionalGroups = {}, lights.glossyGroups = {};
-  lights.diffuseDepthEnds = {}, lights.glossyDepthEnds = {};
+  lights.diffuseDepthEnds = {}, lights.glossyDepthEnds = {}, lights.gaussianDepthEnds = {};
   lights.sphereShading.reach = SphereShading::Reach::nearField;
   return lights;
 }

@@ -96,6 +96,7 @@ LightParts splitLights(VirtualLights lights) {
   direct.sphereShading = indirect.sphereShading = lights.sphereShading;
   direct.gaussianShading = indirect.gaussianShading = lights.gaussianShading;
   direct.specularLimit = indirect.specularLimit = lights.specularLimit;
+  direct.seed = indirect.seed = lights.seed;
   direct.groups = indirect.groups = std::move(lights.groups);
   return parts;
 }

@@ -126,6 +126,7 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
                     {"lights_per_light_node", lightsPerNode(report, s)},
                     {"pixels_per_pixel_node", pointsPerCluster(report, s)},
                     {"specular_connections", s.count("specular_connections")},
+                    {"light_points", s.count("light_points")},
                     {"near_receivers", s.count("near_receivers")},
                     {"paths_cut", s.count("paths_cut")},
                     {"nonfinite", s.count("nonfinite") + countNonFinite(film)}};

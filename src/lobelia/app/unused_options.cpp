@@ -54,6 +54,9 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
            "environments become lights with --direct lights only");
     const bool loads = !options.loadLights.empty();
     report("--num-lights", loads, "--load-lights brings the lights that it holds");
+    for (const char* name :
+         {"--vsgl-clusters", "--vsgl-points", "--vsgl-views", "--vsgl-overlap", "--vsgl-merging"})
+      report(name, loads, "--load-lights brings the lights that it holds");
     report("--env-lights", loads && options.direct == "lights",
            "--load-lights brings the lights that it holds");
     if (const int samples = virtualLightSamples(options); options.passes > samples) {
@@ -74,7 +77,7 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
         "--vsgl-variance", "--vsgl-spread", "--vsgl-merging", "--vsgl-shadows"})
     report(name, options.lights != "vsgl", "only --lights vsgl has spherical Gaussian lights");
   report("--clamp", (options.lights == "vsl" || options.lights == "vsgl") && options.clamp != "off",
-         "spherical lights have no spikes to clamp");
+         "spherical and spherical Gaussian lights have no spikes to clamp");
   for (const char* name : {"--photons-nearest", "--photon-radius", "--gather-rays"})
     report(name, options.lights != "photon", "only --lights photon has photons");
   report("--gather", options.lights == "photon", "photons are gathered by rays of the receivers");

@@ -77,7 +77,7 @@ void addVsglOptions(CLI::App& c, RenderOptions& o) {
       ->check(oneOf({"projected", "isotropic"}));
   c.add_option("--vsgl-spread", o.vsglSpread,
                "--lights vsgl: factor of that extent's square; 1: that of the points, 2: that of a "
-               "surface tiled by lights; default: 2")
+               "surface tiled by lights; default: 1")
       ->type_name("S")
       ->check(finiteNumber(0, 100, false));
   c.add_option("--vsgl-merging", o.vsglMerging,
@@ -85,10 +85,11 @@ void addVsglOptions(CLI::App& c, RenderOptions& o) {
                "the paper has them")
       ->type_name("HOW")
       ->check(oneOf({"exact", "toksvig"}));
-  c.add_option("--vsgl-shadows", o.vsglShadows,
-               "--lights vsgl: a shadow ray to every light, to one of its points (random, the "
-               "default) or to the middle one (mean); N rays for a receiver, to lights chosen by "
-               "what they would send; none: no shadows")
+  c.add_option(
+       "--vsgl-shadows", o.vsglShadows,
+       "--lights vsgl: a shadow ray to every light, to its middle point (mean, the default) or to "
+       "one of four (random); N rays for a receiver, to lights chosen by what they would "
+       "send; none: no shadows")
       ->type_name("HOW|N")
       ->check(shadows());
 }
@@ -115,7 +116,7 @@ GaussianShading gaussianShadingOf(const RenderOptions& options) {
                  : options.vsglShading == "pulled" ? pulled
                                                    : accurate;
   shading.ends =
-      options.vsglShadows == "mean" ? GaussianShading::Ends::mean : GaussianShading::Ends::random;
+      options.vsglShadows == "random" ? GaussianShading::Ends::random : GaussianShading::Ends::mean;
   shading.projected = options.vsglVariance != "isotropic";
   if (options.vsglSpread > 0) shading.spread = options.vsglSpread;
   shading.toksvig = options.vsglMerging == "toksvig";

@@ -14,7 +14,7 @@
 //
 // The matrix is diagonal in a frame turned about the normal, in which the lobe is evaluated; lobes
 // that are no microfacets in slopes (phong, gtr1, sphericalGaussian, transmission) are widened by
-// one number.
+// one number; sheen is not.
 #if defined(LOBELIA_BSDF_FILTERED_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_BSDF_FILTERED_INL_H_
 #undef LOBELIA_BSDF_FILTERED_INL_H_
@@ -59,21 +59,23 @@ LOBELIA_HD F shareAbove(F sharpness, V3<F> wo, const FilteredDirection<F>& from)
   return sgShareAbove(cosine, length);
 }
 
-// Squared roughness as slopes of facets have it, and back: it stays below 1 whatever is added
-// [Tokuyoshi24, section 4.2].
+// Squared roughness as it is added to, and back: of GGX such that it stays below 1 whatever is
+// added [Tokuyoshi24, section 4.2], and unchanged from 1 on; of Gaussian slopes as it is.
 template <class F>
-LOBELIA_HD F projectedRoughness(F alpha) {
-  const F a2 = min(alpha * alpha, F(0.9999f));
-  return a2 / (F(1.f) - a2);
+LOBELIA_HD F addableRoughness(bool bounded, F alpha) {
+  const F a2 = alpha * alpha;
+  return bounded ? a2 / max(F(1.f) - a2, F(1e-4f)) : a2;
 }
 template <class F>
-LOBELIA_HD F roughnessOfProjected(F squared) {
-  return sqrt(squared / (F(1.f) + squared));
+LOBELIA_HD F roughnessOfAddable(bool bounded, F squared, F alpha) {
+  if (!bounded) return sqrt(squared);
+  return select(alpha < F(0.99f), sqrt(squared / (F(1.f) + squared)), alpha);
 }
 
 // Widens alphas along the axes in which it is diagonal, and turns both directions to them.
 template <class F>
-LOBELIA_HD void widenByHalfVectors(F sharpness, LobeParameters<F>* p, V3<F>* wo, V3<F>* wi) {
+LOBELIA_HD void widenByHalfVectors(bool bounded, F sharpness, LobeParameters<F>* p, V3<F>* wo,
+                                   V3<F>* wi) {
   const V3<F> h = unitVector(*wo + *wi);
   const V3<F> t = unitVector(*wi - *wo);
   const F cosine = dot(h, *wi);
@@ -84,7 +86,8 @@ LOBELIA_HD void widenByHalfVectors(F sharpness, LobeParameters<F>* p, V3<F>* wo,
   const F a = scale * (xx + across * max(F(1.f) - h.x * h.x - xx, F(0.f)));
   const F b = scale * (xy + across * (F(0.f) - h.x * h.y - xy));
   const F c = scale * (yy + across * max(F(1.f) - h.y * h.y - yy, F(0.f)));
-  const F ax = projectedRoughness(p->alphaX) + a, ay = projectedRoughness(p->alphaY) + c;
+  const F ax = addableRoughness(bounded, p->alphaX) + a;
+  const F ay = addableRoughness(bounded, p->alphaY) + c;
   const F mean = F(0.5f) * (ax + ay), half = F(0.5f) * (ax - ay);
   const F root = sqrt(half * half + b * b);
   const F inverse = F(1.f) / max(root, F(1e-20f));
@@ -95,15 +98,16 @@ LOBELIA_HD void widenByHalfVectors(F sharpness, LobeParameters<F>* p, V3<F>* wo,
   const auto turned = [&](V3<F> v) { return V3<F>{cx * v.x + sx * v.y, cx * v.y - sx * v.x, v.z}; };
   *wo = turned(*wo);
   *wi = turned(*wi);
-  p->alphaX = roughnessOfProjected(mean + root);
-  p->alphaY = roughnessOfProjected(max(mean - root, F(1e-10f)));
+  const F widest = max(p->alphaX, p->alphaY);
+  p->alphaX = roughnessOfAddable(bounded, mean + root, widest);
+  p->alphaY = roughnessOfAddable(bounded, max(mean - root, F(1e-10f)), widest);
 }
 
 // By one number: the geometric mean of both axes.
 template <class F>
-LOBELIA_HD void widenEvenly(F added, LobeParameters<F>* p) {
-  p->alphaX = roughnessOfProjected(projectedRoughness(p->alphaX) + added);
-  p->alphaY = roughnessOfProjected(projectedRoughness(p->alphaY) + added);
+LOBELIA_HD void widenEvenly(bool bounded, F added, LobeParameters<F>* p) {
+  for (F* alpha : {&p->alphaX, &p->alphaY})
+    *alpha = roughnessOfAddable(bounded, addableRoughness(bounded, *alpha) + added, *alpha);
 }
 
 // Around the mirror direction, a Gaussian of sharpness n + 1. wi: lifted.
@@ -149,19 +153,20 @@ LOBELIA_HD V3<F> evaluateFiltered(LobeTags tags, LobeParameters<F> p, V3<F> wo,
       tags.type == LobeType::ward ||
       (tags.type == LobeType::microfacetReflection &&
        (tags.distribution == Distribution::ggx || tags.distribution == Distribution::beckmann));
+  const bool bounded = tags.type != LobeType::ward && tags.distribution != Distribution::beckmann;
   V3<F> out = wo;
   if (slopes) {
-    widenByHalfVectors(from.sharpness, &p, &out, &wi);
+    widenByHalfVectors(bounded, from.sharpness, &p, &out, &wi);
   } else if (tags.type == LobeType::phong) {
     return evaluateFilteredPhong(tags, p, wo, wi, from, table);
   } else if (tags.type == LobeType::microfacetTransmission) {
     const F eta = select(wo.z < F(0.f), F(1.f) / p.eta.x, p.eta.x);
     const V3<F> h = wo + wi * eta;
-    widenEvenly(F(2.f) * eta * eta * spread / max(dot(h, h), F(1e-3f)), &p);
+    widenEvenly(bounded, F(2.f) * eta * eta * spread / max(dot(h, h), F(1e-3f)), &p);
   } else if (tags.type != LobeType::sheen) {
     const V3<F> mirrored{wi.x, wi.y, through ? F(0.f) - wi.z : wi.z};
     const F cosine = sqrt(max(F(0.5f) * (F(1.f) + dot(wo, mirrored)), F(1e-2f)));
-    widenEvenly(F(0.5f) * spread / cosine, &p);
+    widenEvenly(bounded, F(0.5f) * spread / cosine, &p);
   }
   return evaluateLobe(tags, p, out, wi, table) * above;
 }

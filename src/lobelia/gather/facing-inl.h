@@ -1,5 +1,6 @@
 // Which receiver points and virtual lights can see each other's front: the tests that decide
-// whether a shadow ray is worth tracing. All are exact: a pair that fails contributes zero.
+// whether a shadow ray is worth tracing. All are exact but for
+// Gaussian lights, whose tails they cut off: a pair that fails contributes zero.
 #if defined(LOBELIA_GATHER_FACING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_GATHER_FACING_INL_H_
 #undef LOBELIA_GATHER_FACING_INL_H_

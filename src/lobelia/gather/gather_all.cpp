@@ -125,7 +125,7 @@ class TileGather {
     if (context_.cancelled()) return false;
     const ShadowScene scene{tracer_, lights_, settings_};
     ShadowChoice choice(scene, tile, hashCombine(kShadowStream, lights_.seed));
-    tally->rays += choice.add(LightClass::gaussian, range.begin, range.end, sums);
+    tally->rays += choice.add(range.begin, range.end, sums);
     tally->visibilityNs += choice.visibilityNs;
     tally->shadeNs += choice.shadeNs;
     return true;

@@ -61,7 +61,7 @@ HWY_INLINE SeenPlaces seenPlaces(const g::PreparedGaussian& light, V3<Vf> p) {
   seen.cosine = Vf(0.f) - dot(n, seen.w);
   // By the cosine's gradient over the place.
   const V3<Vf> slope = n + seen.w * seen.cosine;
-  seen.turn = quadraticForm(light.q, slope) * (inverse * inverse);
+  seen.turn = quadraticForm(light.covariance, slope) * (inverse * inverse);
   return seen;
 }
 
@@ -94,8 +94,9 @@ HWY_INLINE FilteredDirection<Vf> directionFor(GaussianShading::Form form, V3<Vf>
   const Vf c = select(wo.z < Vf(0.f), Vf(0.f) - wi.z, wi.z);
   if (form == GaussianShading::Form::product)
     return {wi, sharpness, productCosine(c, sharpness), Vf(1.f)};
-  // A = 2 pi / sharpness.
-  *fluence = *fluence / expRatio(sharpness + sharpness) * (Vf(0.5f) / sharpness);
+  // A = 2 pi / sharpness, where it is not small [P001 supplement, section 4.2].
+  const Vf approximate = *fluence / expRatio(sharpness + sharpness) * (Vf(0.5f) / sharpness);
+  *fluence = select(sharpness < Vf(3.f), *fluence, approximate);
   return {wi, sharpness, max(c, Vf(0.f)), Vf(1.f)};
 }
 
@@ -134,13 +135,18 @@ HWY_INLINE void addProduct(GaussianShading::Form form, const g::PointStrip& stri
               select(seenAtAll, fluence, Vf(0.f)), i, pairs, lobes);
 }
 
+// Sharpness of the normals' directions as a point sees them: spreads add up as squares of angles
+// do; the one of means, k / (k + 1).
+HWY_INLINE Vf spreadOfNormals(float sharpness, Vf turn) {
+  const Vf normals(sharpness), turns = Vf(1.f) / max(turn, Vf(1e-7f));
+  return normals * turns / (normals + turns + Vf(1.f));
+}
+
 // Part that leaves by cosine lobes.
 HWY_INLINE void addDiffuse(const g::PointStrip& strip, size_t lane, const SeenPlaces& seen,
                            const g::PreparedGaussian::Part& part, size_t i, PairScratch* pairs,
                            IncomingLobes* lobes) {
-  // Spreads add up as squares of angles do; the one of means, k / (k + 1).
-  const Vf normals(part.sharpness), turns = Vf(1.f) / max(seen.turn, Vf(1e-7f));
-  const Vf together = normals * turns / (normals + turns + Vf(1.f));
+  const Vf together = spreadOfNormals(part.sharpness, seen.turn);
   addProduct(GaussianShading::Form::accurate, strip, lane, seen, broadcast(part.axis),
              Vf(kPaperDiffuseSharpness), sgCosineMean(seen.cosine, together), Vf(0.5f), i, pairs,
              lobes);
@@ -148,9 +154,13 @@ HWY_INLINE void addDiffuse(const g::PointStrip& strip, size_t lane, const SeenPl
 
 // Part that leaves by a Gaussian (equation 7).
 HWY_INLINE void addGaussian(GaussianShading::Form form, const g::PointStrip& strip, size_t lane,
-                            const SeenPlaces& seen, const g::PreparedGaussian::Part& part, size_t i,
-                            PairScratch* pairs, IncomingLobes* lobes) {
-  addProduct(form, strip, lane, seen, broadcast(part.axis), Vf(part.sharpness), Vf(1.f), Vf(0.f), i,
+                            const SeenPlaces& seen, const g::PreparedGaussian::Part& part,
+                            float normals, size_t i, PairScratch* pairs, IncomingLobes* lobes) {
+  // Nothing leaves below the surfaces, whose normals spread.
+  const Vf above = form == GaussianShading::Form::accurate
+                       ? sgShareAbove(seen.cosine, spreadOfNormals(normals, seen.turn))
+                       : Vf(1.f);
+  addProduct(form, strip, lane, seen, broadcast(part.axis), Vf(part.sharpness), above, Vf(0.f), i,
              pairs, lobes);
 }
 
@@ -218,7 +228,8 @@ void gaussianPairsOf(const g::Tile& tile, const g::PointStrip& strip, size_t lan
     addDiffuse(strip, lane, places.load(i), part, i, pairs, &lobes);
   };
   const auto byGaussian = [&](const g::PreparedGaussian::Part& part, size_t i) {
-    addGaussian(block.gaussianShading.form, strip, lane, places.load(i), part, i, pairs, &lobes);
+    addGaussian(block.gaussianShading.form, strip, lane, places.load(i), part,
+                block.gaussians[pairs->light[i]].normalSharpness, i, pairs, &lobes);
   };
   if constexpr (kPaper) {
     addPart(tile, strip, lane, block, diffuse, byGaussian, evaluate, pairs, &lobes, &light);

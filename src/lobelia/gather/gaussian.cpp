@@ -14,6 +14,8 @@ constexpr float kDiffuseMean = 2 / 3.f;
 // Standard deviations, of places and of normals, beyond which what a Gaussian has counts for
 // nothing.
 constexpr float kExtent = 2.5f;
+// Points in the plane of a flat cluster get nothing of it.
+constexpr float kLeastFacing = 1e-4f;
 
 float toksvig(float sharpness) { return sharpness / (sharpness + 1); }
 float inverseToksvig(float mean) { return mean / std::max(1 - mean, 1e-7f); }
@@ -35,8 +37,10 @@ PreparedGaussian prepareGaussian(const GaussianLight& light, const GaussianShadi
   out.mean = light.mean;
   const float scale = 0.5f * shading.spread;
   out.halfTrace = scale * (light.covariance[0] + light.covariance[1] + light.covariance[2]);
-  if (shading.projected)
-    for (int i = 0; i < 6; ++i) out.q[i] = scale * light.covariance[i];
+  for (int i = 0; i < 6; ++i) {
+    out.covariance[i] = light.covariance[i];
+    if (shading.projected) out.q[i] = scale * light.covariance[i];
+  }
   out.extent = kExtent * std::sqrt(std::max(out.halfTrace, 0.f));
   if (shading.form == GaussianShading::Form::accurate) {
     out.diffuse.sharpness = light.normalSharpness;
@@ -45,13 +49,20 @@ PreparedGaussian prepareGaussian(const GaussianLight& light, const GaussianShadi
     out.diffuse = mergedDiffuse(light, shading.toksvig);
   }
   out.diffuse.axis = light.normal;
+  out.normalSharpness = light.normalSharpness;
   out.diffuse.any = maxComponent(light.diffuse) > 0;
   out.glossy.axis = light.axis;
   out.glossy.sharpness = light.sharpness;
-  out.glossy.peak = light.glossy / lobes::integral(light.sharpness);
+  // Above the plane across the normal, as blurred as normals are.
+  const float seen =
+      light.sharpness * light.normalSharpness / (light.sharpness + light.normalSharpness + 1);
+  out.glossy.peak = light.glossy * (lobes::integral(seen) / lobes::integral(light.sharpness) *
+                                    lobes::clippedPeak(dot(light.axis, light.normal), seen));
   out.glossy.any = maxComponent(light.glossy) > 0;
   // All sides where normals spread widely.
-  out.facingSine = std::min(1.f, kExtent / std::sqrt(std::max(light.normalSharpness, 1.f)));
+  out.facingSine = isFlat(light)
+                       ? -kLeastFacing
+                       : std::min(1.f, kExtent / std::sqrt(std::max(light.normalSharpness, 1.f)));
   for (int i = 0; i < GaussianLight::kPlaces; ++i)
     out.ends[i] = liftedEnd(light.places[i].p, decodeOctahedral(light.places[i].normal));
   return out;

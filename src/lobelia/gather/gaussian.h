@@ -11,7 +11,8 @@ struct PreparedGaussian {
   // included; Q as GaussianLight::covariance.
   float halfTrace = 0;
   float q[6] = {};
-  float extent = 0;  // beyond this distance of the mean the places count for nothing
+  float covariance[6] = {};  // without the spread
+  float extent = 0;          // beyond this distance of the mean the places count for nothing
   // A part of the light: what leaves by a Gaussian. peak: its amplitude, W/sr.
   struct Part {
     Vec3f axis{0, 0, 1};
@@ -21,9 +22,13 @@ struct PreparedGaussian {
   };
   // diffuse: with Form::accurate `peak` is power / pi, and `sharpness` that of the normals.
   Part diffuse, glossy;
+  float normalSharpness = 0;
   float facingSine = 1;  // light leaves up to this sine below the plane across the mean normal
   Vec3f ends[GaussianLight::kPlaces];
 };
+
+// Does a cluster send light to one side only?
+inline bool isFlat(const GaussianLight& light) { return light.normalSharpness > 1e5f; }
 
 PreparedGaussian prepareGaussian(const GaussianLight& light, const GaussianShading& shading);
 

@@ -44,6 +44,11 @@ void shadePairs(const g::Tile& tile, const g::LightBlock& block, float clamp,
   shadeClass(tile, block, clamp, pairs, values);
 }
 
+void shadeLuminances(const g::Tile& tile, const g::LightBlock& block, float clamp,
+                     const g::PairMasks& pairs, g::PairLuminances* luminances) {
+  shadeOf<g::LightClass::gaussian>(tile, block, clamp, pairs, luminances);
+}
+
 LOBELIA_CORE_END
 
 #if HWY_ONCE
@@ -51,6 +56,7 @@ namespace lobelia {
 HWY_EXPORT(keepVisible);
 HWY_EXPORT(shade);
 HWY_EXPORT(shadePairs);
+HWY_EXPORT(shadeLuminances);
 }  // namespace lobelia
 
 namespace lobelia::gather {
@@ -68,6 +74,11 @@ void shade(const Tile& tile, const LightBlock& block, float clamp, const PairMas
 void shadePairs(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
                 PairValues* values) {
   HWY_DYNAMIC_DISPATCH(lobelia::shadePairs)(tile, block, clamp, pairs, values);
+}
+
+void shadeLuminances(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
+                     PairLuminances* luminances) {
+  HWY_DYNAMIC_DISPATCH(lobelia::shadeLuminances)(tile, block, clamp, pairs, luminances);
 }
 
 }  // namespace lobelia::gather

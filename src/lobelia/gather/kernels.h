@@ -49,6 +49,12 @@ struct PairValues {
   }
 };
 
+// Their luminances, at the same places of an array of zeros.
+struct PairLuminances {
+  float* values = nullptr;
+  uint64_t pairs = 0, nonfinite = 0;
+};
+
 // Adds the light of the pairs to the sums: in the order of the lights, in float within the block.
 // A pair whose value is not finite adds nothing and is counted.
 void shade(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
@@ -56,5 +62,9 @@ void shade(const Tile& tile, const LightBlock& block, float clamp, const PairMas
 // The same pairs' values, one by one; values: reset() for the block and tile.
 void shadePairs(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
                 PairValues* values);
+
+// Of Gaussian lights.
+void shadeLuminances(const Tile& tile, const LightBlock& block, float clamp, const PairMasks& pairs,
+                     PairLuminances* luminances);
 
 }  // namespace lobelia::gather

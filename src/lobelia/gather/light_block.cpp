@@ -116,7 +116,7 @@ void prepareGaussians(const VirtualLights& lights, LightBlock* block) {
     out.p = gaussian.mean;
     out.end = gaussian.ends[0];
     out.n = gaussian.diffuse.axis;
-    out.cutoff = -sqr(gaussian.facingSine);
+    out.cutoff = -gaussian.facingSine * std::abs(gaussian.facingSine);
     out.extent = gaussian.extent;
     out.intensity = Rgb(1.f);
   }

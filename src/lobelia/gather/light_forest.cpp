@@ -12,9 +12,6 @@ namespace {
 
 constexpr uint64_t kStandsFor = 0x7374616e64;  // of spherical lights that stand for a node
 
-// Sharpness of normals from which on a cluster sends light to one side only.
-constexpr float kFlat = 100;
-
 using trees::BoundItem;
 
 BoundItem itemOf(const OmniLight& light) {
@@ -62,16 +59,16 @@ BoundItem itemOf(const SphericalLight& light, const PreparedSphere& sphere) {
 }
 
 // Of the places a sphere that holds nearly all; the leaving light as cosine lobe and Gaussian.
-BoundItem itemOf(const GaussianLight& light) {
+BoundItem itemOf(const GaussianLight& light, const GaussianShading& shading) {
   BoundItem item;
   item.p = light.mean;
-  item.radius = 3 * std::sqrt(light.covariance[0] + light.covariance[1] + light.covariance[2]);
-  if (light.normalSharpness > kFlat) item.n = light.normal;
+  const PreparedGaussian prepared = prepareGaussian(light, shading);
+  item.radius = 3 * std::sqrt(prepared.halfTrace);
+  if (isFlat(light)) item.n = light.normal;
   item.cosine = luminance(light.diffuse) * kInvPi;
-  const float glossy = luminance(light.glossy);
-  if (!(glossy > 0)) return item;
+  if (!prepared.glossy.any) return item;
   item.gaussianCount = 1;
-  item.gaussians[0] = {light.axis, light.sharpness, glossy / lobes::integral(light.sharpness)};
+  item.gaussians[0] = {light.axis, light.sharpness, luminance(prepared.glossy.peak)};
   return item;
 }
 
@@ -154,7 +151,7 @@ BoundItem boundItemOf(const VirtualLights& lights, LightClass lightClass, size_t
     case LightClass::spherical:
       return itemOf(lights.spherical[index], *sphere);
     case LightClass::gaussian:
-      return itemOf(lights.gaussian[index]);
+      return itemOf(lights.gaussian[index], lights.gaussianShading);
     case LightClass::glossy:
       break;
   }

@@ -27,9 +27,11 @@ struct PairBounds {
 };
 
 // Is a node's light, under a clamp (GatherSettings::clamp), at most that times the sum of its
-// intensities (cosine + peak)? Those of spherical lights, powers over areas, nodes do not have.
+// intensities (cosine + peak)? Those of spherical lights, powers over areas, nodes do not have;
+// Gaussian ones are not clamped.
 inline bool clampBounds(LightClass lightClass) {
-  return lightClass != LightClass::directional && lightClass != LightClass::spherical;
+  return lightClass != LightClass::directional && lightClass != LightClass::spherical &&
+         lightClass != LightClass::gaussian;
 }
 
 // Lights of one class; receivers with Gaussians (glossy) or cosine lobes. bounds: one per pair.

@@ -236,6 +236,20 @@ struct LaneValues {
   void finish(size_t, size_t) const {}
 };
 
+// ...or its luminance.
+struct LaneLuminances {
+  static constexpr float kRed = luminance(Rgb(1, 0, 0)), kGreen = luminance(Rgb(0, 1, 0)),
+                         kBlue = luminance(Rgb(0, 0, 1));
+  float* values;
+  size_t at, stride;
+  HWY_INLINE void add(size_t light, V3<Vf> value) {
+    (value.x * Vf(kRed) + value.y * Vf(kGreen) + value.z * Vf(kBlue))
+        .store(values + at + light * stride);
+  }
+  void markNonfinite(uint32_t) {}
+  void finish(size_t, size_t) const {}
+};
+
 // Out counts pairs and non-finite ones; what they are worth goes to the sink.
 template <g::LightClass kClass, class Sink, class Out>
 void sumUp(const g::PointStrip& strip, size_t lane, const g::LightBlock& block, float clamp,
@@ -277,8 +291,12 @@ inline LaneSums sinkFor(g::TileSums* sums, size_t, size_t, const g::PairMasks&) 
 inline LaneValues sinkFor(g::PairValues* values, size_t s, size_t lane, const g::PairMasks& masks) {
   return {values, s * g::kStrip + lane, masks.strips * g::kStrip};
 }
+inline LaneLuminances sinkFor(g::PairLuminances* luminances, size_t s, size_t lane,
+                              const g::PairMasks& masks) {
+  return {luminances->values, s * g::kStrip + lane, masks.strips * g::kStrip};
+}
 
-// Out: TileSums or PairValues.
+// Out: TileSums, PairValues or PairLuminances.
 template <g::LightClass kClass, class Out>
 void shadeOf(const g::Tile& tile, const g::LightBlock& block, float clamp,
              const g::PairMasks& pairMasks, Out* out) {

@@ -8,7 +8,6 @@
 #include "lobelia/gather/light_range.h"
 
 namespace lobelia::gather {
-
 double ShadowChoice::randomOf(Vec3f p) const {
   const uint64_t xy = hashCombine(std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y));
   const uint64_t key = hashCombine(hashCombine(seed_, xy), std::bit_cast<uint32_t>(p.z));
@@ -18,14 +17,14 @@ double ShadowChoice::randomOf(Vec3f p) const {
 ShadowChoice::ShadowChoice(const ShadowScene& scene, const Tile& tile, uint64_t seed)
     : scene_(scene), tile_(tile), seed_(seed), width_(tile.strips.size() * kStrip) {}
 
-size_t ShadowChoice::add(LightClass lightClass, size_t first, size_t end, TileSums* sums) {
+size_t ShadowChoice::add(size_t first, size_t end, TileSums* sums) {
   const int64_t start = nanosecondsNow();
-  estimate(lightClass, first, end);
+  estimate(first, end);
   choose();
   shadeNs += nanosecondsNow() - start;
   size_t rays = 0;
   for (size_t at = first; at < end; at += kBlockLights) {
-    prepareBlock(lightClass, at, end);
+    prepareBlock(at, end);
     const float* factors = &weights_[(at - first) * width_];
     if (!keepChosen(factors)) continue;
     const int64_t prepared = nanosecondsNow();
@@ -57,44 +56,39 @@ bool ShadowChoice::keepChosen(const float* factors) {
   return any;
 }
 
-void ShadowChoice::prepareBlock(LightClass lightClass, size_t first, size_t end) {
-  prepare(scene_.lights, scene_.tracer.scene(), lightClass, first,
+void ShadowChoice::prepareBlock(size_t first, size_t end) {
+  prepare(scene_.lights, scene_.tracer.scene(), LightClass::gaussian, first,
           std::min(kBlockLights, end - first), &block_);
   allowPairs(tile_, block_, scene_.lights, scene_.settings, &pairs_);
 }
 
-void ShadowChoice::estimate(LightClass lightClass, size_t first, size_t end) {
+void ShadowChoice::estimate(size_t first, size_t end) {
   weights_.assign((end - first) * width_, 0.f);
+  PairLuminances luminances;
   for (size_t at = first; at < end; at += kBlockLights) {
-    prepareBlock(lightClass, at, end);
+    prepareBlock(at, end);
     keepFacing(tile_, block_, &pairs_);
-    values_.reset(static_cast<size_t>(block_.count), tile_.strips.size());
-    shadePairs(tile_, block_, scene_.settings.clamp, pairs_, &values_);
-    float* weights = &weights_[(at - first) * width_];
-    for (size_t i = 0; i < static_cast<size_t>(block_.count) * width_; ++i)
-      weights[i] = luminance(Rgb(values_.x[i], values_.y[i], values_.z[i]));
+    luminances.values = &weights_[(at - first) * width_];
+    shadeLuminances(tile_, block_, scene_.settings.clamp, pairs_, &luminances);
   }
-  values_.pairs = values_.nonfinite = 0;  // counted where they are shaded for good
 }
 
 void ShadowChoice::choose() {
-  const int rays = scene_.settings.shadowRays;
+  std::vector<double> step(width_), next(width_), before(width_);
+  for (size_t at = 0; at < weights_.size(); at += width_)
+    for (size_t i = 0; i < width_; ++i) step[i] += static_cast<double>(weights_[at + i]);
   for (size_t i = 0; i < width_; ++i) {
-    double sum = 0;
-    for (size_t at = i; at < weights_.size(); at += width_)
-      sum += static_cast<double>(weights_[at]);
-    if (!(sum > 0)) continue;
-    const double step = sum / rays;
-    double next = step * randomOf(tile_.strips[i / kStrip].p.get(static_cast<int>(i % kStrip)));
-    double before = 0;
-    for (size_t at = i; at < weights_.size(); at += width_) {
-      const double weight = static_cast<double>(weights_[at]);
-      before += weight;
-      int times = 0;
-      for (; next < before; next += step) ++times;
-      weights_[at] = times > 0 ? static_cast<float>(times * step / weight) : 0.f;
-    }
+    step[i] /= scene_.settings.shadowRays;
+    next[i] = step[i] * randomOf(tile_.strips[i / kStrip].p.get(static_cast<int>(i % kStrip)));
   }
+  for (size_t at = 0; at < weights_.size(); at += width_)
+    for (size_t i = 0; i < width_; ++i) {
+      const double weight = static_cast<double>(weights_[at + i]);
+      before[i] += weight;
+      int times = 0;
+      for (; next[i] < before[i]; next[i] += step[i]) ++times;
+      weights_[at + i] = times > 0 ? static_cast<float>(times * step[i] / weight) : 0.f;
+    }
 }
 
 void ShadowChoice::addScaled(size_t light, const float* factors, TileSums* sums) const {

@@ -1,9 +1,9 @@
-// Few shadow rays for many lights: a receiver sends so many, to lights chosen by what they would
-// send it if they were seen, each with its share of the sum over what it was chosen by.
+// Few shadow rays for many Gaussian lights: a receiver sends so many, to lights chosen by what they
+// would send it if they were seen, each with its share of the sum over what it was chosen by.
 //
 // The estimate is unbiased; its variance is that of visibility alone, for the unshadowed sum is
-// known. Lights are chosen by stratified steps over the running sum of luminances: one that makes
-// more than a step of it is always chosen.
+// known (cheaper estimates of what lights would send left spikes). Lights are chosen by stratified
+// steps over the running sum: one that makes more than a step of it is always chosen.
 #pragma once
 
 #include "lobelia/gather/gather.h"
@@ -19,18 +19,18 @@ struct ShadowScene {
 
 class ShadowChoice {
  public:
-  // seed: of this tile's random numbers. The tile must outlive it.
+  // seed: of this set's random numbers. The tile must outlive it.
   ShadowChoice(const ShadowScene& scene, const Tile& tile, uint64_t seed);
 
-  // The light of a class' lights [first, end), by settings.shadowRays > 0 rays of each point.
+  // The light of Gaussian lights [first, end), by settings.shadowRays > 0 rays of each point.
   // Returns the number of rays.
-  size_t add(LightClass lightClass, size_t first, size_t end, TileSums* sums);
+  size_t add(size_t first, size_t end, TileSums* sums);
 
   int64_t visibilityNs = 0, shadeNs = 0;
 
  private:
-  void prepareBlock(LightClass lightClass, size_t first, size_t end);
-  void estimate(LightClass lightClass, size_t first, size_t end);
+  void prepareBlock(size_t first, size_t end);
+  void estimate(size_t first, size_t end);
   void choose();
   double randomOf(Vec3f point) const;  // in [0,1), the same whatever tile the point is in
   bool keepChosen(const float* factors);
@@ -44,7 +44,7 @@ class ShadowChoice {
   PairMasks pairs_;
   PairValues values_;
   // Luminance of a light at a point as if it were seen; then the factor of those chosen, else 0.
-  std::vector<float> weights_;  // [light][strip][lane]
+  AlignedFloats weights_;  // [light][strip][lane]
 };
 
 }  // namespace lobelia::gather

@@ -5,7 +5,9 @@
 namespace lobelia::gather {
 namespace {
 
-constexpr const char* kClassNames[] = {"omni", "directional", "diffuse", "glossy", "spherical"};
+constexpr const char* kClassNames[] = {"omni",   "directional", "diffuse",
+                                       "glossy", "spherical",   "spherical Gaussian"};
+static_assert(std::size(kClassNames) == std::size(kLightClasses));
 
 // Of a preorder: children, parents and leaves. count(i): lights of node i; right(i): of inner ones.
 template <class Count, class Right>
@@ -32,7 +34,8 @@ void addShape(const Count& count, const Right& right, ExportTable* nodes) {
 template <class Choice>
 ExportTable lightTable(size_t count, const VirtualLights& lights, const Choice& choice) {
   ExportTable table{"lights", "lights in the order of the leaves", count, {}};
-  table.add("class", "0 omni, 1 directional, 2 diffuse, 3 glossy, 4 spherical",
+  table.add("class",
+            "0 omni, 1 directional, 2 diffuse, 3 glossy, 4 spherical, 5 spherical Gaussian",
             [&](size_t i) { return static_cast<uint32_t>(choice(i).lightClass); });
   table.add("index", "number of the light in its class and part",
             [&](size_t i) { return static_cast<uint32_t>(choice(i).index); });
@@ -41,7 +44,8 @@ ExportTable lightTable(size_t count, const VirtualLights& lights, const Choice& 
   });
   table.add("power",
             "R, G, B: omni and diffuse the intensity along the normal, W/sr; directional the "
-            "irradiance, W/m^2; glossy the Gaussian's integral and spherical the power, W",
+            "irradiance, W/m^2; glossy the Gaussian's integral, spherical and spherical Gaussian "
+            "the power, W",
             [&](size_t i) { return lightPower(lights, choice(i).lightClass, choice(i).index); });
   return table;
 }

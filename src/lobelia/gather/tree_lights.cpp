@@ -48,10 +48,10 @@ TreeLight asTreeLight(const trees::BoundItem& item, bool omni) {
 
 // By the extent of a cluster. Cosine lobes whose normals disagree are told by the length of their
 // mean.
-void widen(const GaussianLight& light, TreeLight* out) {
+void widen(const GaussianLight& light, float spread, TreeLight* out) {
   out->variance = light.covariance[0] + light.covariance[1] + light.covariance[2];
-  out->radius = 3 * std::sqrt(out->variance);
-  const bool oneSided = light.normalSharpness > 1e4f;
+  out->radius = 3 * std::sqrt(std::max(1.f, 0.5f * spread) * out->variance);
+  const bool oneSided = isFlat(light);
   out->n =
       light.normal *
       (oneSided ? 1 : std::min(lobes::meanResultant(light.normalSharpness), trees::kSpreadNormal));
@@ -91,7 +91,8 @@ std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
                   : asTreeLight(boundItemOf(lights, block.lightClass, index, sphere),
                                 block.lightClass == LightClass::omni);
       if (spherical) light.variance = 0.5f * sphere->squaredRadius;
-      if (block.lightClass == LightClass::gaussian) widen(lights.gaussian[index], &light);
+      if (block.lightClass == LightClass::gaussian)
+        widen(lights.gaussian[index], lights.gaussianShading.spread, &light);
       trees[place] = block.lightClass == LightClass::directional ? kDirectionalTree
                      : light.mostlyGlossy()                      ? 1
                                                                  : 0;

@@ -145,7 +145,9 @@ class VisiblePairs {
         block_(block),
         pairs_(*pairs),
         // Ends of rays are off the lights' surfaces already.
-        queue_(tracer, pairs, kInfinite ? 3.4e38f : 1.f, coherent) {}
+        queue_(tracer, pairs, kInfinite ? 3.4e38f : 1.f, coherent) {
+    if (choosesPlaces()) hashPoints();
+  }
 
   size_t run() {
     bool wide[g::kMaxTilePoints] = {};  // strip by strip: there are no more than points
@@ -167,6 +169,8 @@ class VisiblePairs {
 
  private:
   static constexpr bool kInfinite = kClass == g::LightClass::directional;
+  static constexpr int kPlaceShift = 30;
+  static_assert(GaussianLight::kPlaces == 1 << (32 - kPlaceShift));
 
   size_t lightCount() const { return static_cast<size_t>(block_.count); }
   uint32_t pairOf(size_t l, size_t s) const {  // of lane 0
@@ -201,33 +205,41 @@ class VisiblePairs {
       if (pairs_.traced != nullptr) {
         (*pairs_.traced)[l * pairs_.strips + s] |= static_cast<uint16_t>(maskBits(mask) << lane);
       }
-      const Mf front = dot(load(strip.ng, lane), d) >= Vf(0.f);
-      const V3<Vf> origin = choose(front, load(strip.front, lane), load(strip.back, lane));
       V3<Vf> end = broadcast(light.end);
       if constexpr (kClass == g::LightClass::spherical)
         end = choose(dot(broadcast(light.n), d) > Vf(0.f), broadcast(light.endBehind), end);
-      if constexpr (kClass == g::LightClass::gaussian)
-        if (block_.gaussianShading.ends == GaussianShading::Ends::random) end = place(l, s, lane);
+      if (choosesPlaces()) end = chosenPlaces(l, s, lane);
+      // Clusters reach to both sides: the side that the ray's end is on counts.
+      const V3<Vf> towards = kClusters ? end - load(strip.p, lane) : d;
+      const Mf front = dot(load(strip.ng, lane), towards) >= Vf(0.f);
+      const V3<Vf> origin = choose(front, load(strip.front, lane), load(strip.back, lane));
       use(lane, mask, origin, kInfinite ? end : end - origin);
     }
   }
 
-  // One of a cluster's places for each point, the same whatever tile the point is in.
-  V3<Vf> place(size_t l, size_t s, size_t lane) const {
-    LaneEnds ends;
-    for (size_t k = 0; k < kLanes; ++k) {
-      const Vec3f p = tile_.strips[s].p.get(static_cast<int>(lane + k));
-      const uint64_t key =
-          hashCombine(hashCombine(std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y)),
-                      uint64_t{std::bit_cast<uint32_t>(p.z)} << 32 | block_.index[l]);
-      const Vec3f end = block_.gaussians[l].ends[key % GaussianLight::kPlaces];
-      ends.x[k] = end.x, ends.y[k] = end.y, ends.z[k] = end.z;
-    }
-    return {Vf::load(ends.x), Vf::load(ends.y), Vf::load(ends.z)};
+  static constexpr bool kClusters = kClass == g::LightClass::gaussian;
+  bool choosesPlaces() const {
+    return kClusters && block_.gaussianShading.ends == GaussianShading::Ends::random;
   }
-  struct LaneEnds {
-    alignas(64) float x[kLanes], y[kLanes], z[kLanes];
-  };
+  // One of a cluster's places for each point, the same whatever tile the point is in.
+  HWY_INLINE V3<Vf> chosenPlaces(size_t l, size_t s, size_t lane) const {
+    const uint32_t key = static_cast<uint32_t>(hashCombine(block_.index[l], 0)) | 1;
+    uint32_t bits[GaussianLight::kPlaces] = {};
+    for (size_t k = 0; k < kLanes; ++k)
+      bits[pointKeys_[s][lane + k] * key >> kPlaceShift] |= 1u << k;
+    V3<Vf> end = broadcast(block_.gaussians[l].ends[0]);
+    for (int i = 1; i < GaussianLight::kPlaces; ++i)
+      end = choose(maskFromBits(bits[i]), broadcast(block_.gaussians[l].ends[i]), end);
+    return end;
+  }
+  void hashPoints() {
+    for (size_t s = 0; s < tile_.strips.size(); ++s)
+      for (size_t lane = 0; lane < g::kStrip; ++lane) {
+        const Vec3f p = tile_.strips[s].p.get(static_cast<int>(lane));
+        const uint64_t xy = hashCombine(std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y));
+        pointKeys_[s][lane] = static_cast<uint32_t>(hashCombine(xy, std::bit_cast<uint32_t>(p.z)));
+      }
+  }
 
   HWY_INLINE static V3<Vf> choose(Mf mask, V3<Vf> a, V3<Vf> b) {
     return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
@@ -237,6 +249,7 @@ class VisiblePairs {
   const g::LightBlock& block_;
   g::PairMasks& pairs_;
   RayQueue queue_;
+  uint32_t pointKeys_[kClusters ? g::kMaxTilePoints : 1][g::kStrip];  // there are no more strips
 };
 
 template <g::LightClass kClass>

@@ -123,6 +123,9 @@ GaussianLight ClusterSums::light(bool toksvig) const {
   const bool hasDiffuse = diffuseWeight > 0;
   setLobe(hasDiffuse ? normal : side, hasDiffuse ? diffuseWeight : weight, toksvig, &light.normal,
           &light.normalSharpness);
+  // Sides of what is not diffuse count where they spread more: light leaves on all of them.
+  light.normalSharpness =
+      std::min(light.normalSharpness, sharpnessOf(length(side) / weight, toksvig));
   setLobe(axis, glossyWeight, toksvig, &light.axis, &light.sharpness);
   return light;
 }
@@ -177,6 +180,16 @@ void choosePlaces(std::span<const LightPoint> points, std::span<const uint32_t> 
   }
   for (int k = 0; k < GaussianLight::kPlaces; ++k)
     light->places[k] = {points[chosen[k]].p, encodeOctahedral(points[chosen[k]].n)};
+}
+
+void widen(float leastVariance, GaussianLight* light) {
+  float* c = light->covariance;
+  const float missing = leastVariance - light->variance();
+  if (!(missing > 0)) return;
+  const Vec3f n = light->normal;
+  const float half = 0.5f * missing;  // for each of the two directions of the plane
+  c[0] += half * (1 - n.x * n.x), c[1] += half * (1 - n.y * n.y), c[2] += half * (1 - n.z * n.z);
+  c[3] -= half * n.x * n.y, c[4] -= half * n.x * n.z, c[5] -= half * n.y * n.z;
 }
 
 std::vector<GaussianLight> clusterLights(std::span<const LightPoint> points,

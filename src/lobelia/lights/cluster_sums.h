@@ -43,6 +43,9 @@ GaussianLight clusterLight(std::span<const LightPoint> points, std::span<const u
 void choosePlaces(std::span<const LightPoint> points, std::span<const uint32_t> members,
                   uint64_t seed, GaussianLight* light);
 
+// Makes the places vary by at least this (trace), in the plane across the normal.
+void widen(float leastVariance, GaussianLight* light);
+
 // Which points belong together: cluster k has order[ends[k - 1], ends[k]).
 struct Clusters {
   std::vector<uint32_t> order, ends;

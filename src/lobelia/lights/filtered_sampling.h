@@ -1,5 +1,5 @@
 // Virtual spherical Gaussian lights from maps by filtered importance sampling [P001 supplement,
-// section 5, algorithm 1; Křivánek and Colbert 2008] and by k-means.
+// section 5, algorithm 1; Krivanek08] and by k-means.
 #pragma once
 
 #include "lobelia/lights/cluster_sums.h"

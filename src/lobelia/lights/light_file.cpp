@@ -182,6 +182,11 @@ void requireFit(const std::string& file, const VirtualLights& lights, const Ligh
   if (!deepEnough)
     refuse(fmt::format("was made for paths of at most {} edges; use --max-depth {} or less",
                        lights.maxDepth, lights.maxDepth));
+  if (!lights.gaussian.empty() && lights.maxDepth < 0 && settings.maxDepth >= 0)
+    refuse(
+        fmt::format("holds clusters of light of all depths, which cannot be told apart; save it "
+                    "with --max-depth {} or more",
+                    settings.maxDepth));
   const LightGroups groups = lightGroups(scene);
   if (lights.groups.empty() ? groups.size() > 1 : lights.groups != groups.names)
     refuse("holds lights of other light groups than the scene has; save it again");

@@ -28,8 +28,10 @@ void addPointLights(std::span<const LightPoint> points, VirtualLights* lights) {
       endAt(lights->diffuse.size(), point.depth, &lights->diffuseDepthEnds);
     }
     if (maxComponent(point.glossy) > 0) {
-      lights->glossy.push_back({point.p, point.n, point.axis,
-                                point.glossy / lobes::integral(point.sharpness), point.sharpness});
+      lights->glossy.push_back(
+          {point.p, point.n, point.axis,
+           point.glossy * lobes::clippedPeak(dot(point.axis, point.n), point.sharpness),
+           point.sharpness});
       lights->glossyGroups.push_back(point.group);
       endAt(lights->glossy.size(), point.depth, &lights->glossyDepthEnds);
     }

@@ -12,7 +12,7 @@ struct LightPoint {
   Vec3f p;
   Vec3f n{0, 0, 1};     // geometric normal of the side that the light leaves
   Rgb diffuse{};        // W, what leaves by a cosine lobe around n
-  Rgb glossy{};         // W, the integral of the Gaussian
+  Rgb glossy{};         // W, what leaves by the Gaussian, above the surface
   Vec3f axis{0, 0, 1};  // of the Gaussian
   float sharpness = 0;
   uint16_t group = 0;

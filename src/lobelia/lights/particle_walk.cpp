@@ -237,7 +237,8 @@ void ParticleWalk::leavePoints(const SurfacePoint& at, const Bsdf& bsdf, const L
   if (const auto chosen = chooseGaussian(lobes, u)) {
     const GlossyLight glossy = glossyLight(at, bsdf, *chosen->lobe, power * chosen->scale);
     LightPoint& point = glossy.n == side ? near : far;
-    point.glossy = glossy.intensity * lobes::integral(glossy.sharpness);
+    point.glossy =
+        glossy.intensity / lobes::clippedPeak(dot(glossy.axis, glossy.n), glossy.sharpness);
     point.axis = glossy.axis, point.sharpness = glossy.sharpness;
   }
   addPoint(near, place, out);

@@ -33,7 +33,11 @@ bool hasNoExtent(const Emitter& e) {
 
 size_t viewCount(const Scene& scene, const ShadowMapSettings& maps) {
   if (maps.views > 0) return std::min<size_t>(maps.views, kMaxTexels);
-  return scene.emitters.size() == 1 && hasNoExtent(scene.emitters[0]) ? 1 : kDefaultViews;
+  if (scene.emitters.size() == 1 && hasNoExtent(scene.emitters[0])) return 1;
+  // Every emitter is to have some.
+  constexpr size_t kViewsOfEmitter = 4, kLeastTexels = 64;
+  const size_t most = std::max(kDefaultViews, maps.texels / kLeastTexels);
+  return std::clamp(kViewsOfEmitter * scene.emitters.size(), kDefaultViews, most);
 }
 
 // The power of two nearest to the wanted side, by its logarithm.
@@ -189,6 +193,7 @@ ReflectiveShadowMap mapOfPoints(std::vector<LightPoint> points, const Bounds3f& 
   });
   parallelSort(&keys);
   ReflectiveShadowMap map;
+  map.inOrderOfPlace = true;
   map.size = 1;
   while (size_t{map.size} * map.size < points.size()) map.size *= 2;
   map.texels.resize(size_t{map.size} * map.size);

@@ -1,4 +1,4 @@
-// Reflective shadow maps [P001 supplement, section 3.3; Dachsbacher and Stamminger 2005] of every
+// Reflective shadow maps [P001 supplement, section 3.3; Dachsbacher05] of every
 // emitter, by ray casting.
 //
 // A map's texels are the cells of the unit square from which an emitter draws the rays that leave
@@ -18,12 +18,13 @@ namespace lobelia {
 struct ReflectiveShadowMap {
   uint32_t size = 0;               // texels along a side, a power of two
   std::vector<LightPoint> texels;  // [y * size + x]; without power where no rough surface was met
+  bool inOrderOfPlace = false;     // mapOfPoints()
 };
 
 struct ShadowMapSettings {
   size_t texels = 1u << 18;  // of all maps, about
-  // Of emitters with an extent and of environments together with all others; 0: one where the
-  // scene's only emitter is a point or a direction, else 64.
+  // 0: one where the scene's only emitter is a point or a direction, else four for each emitter, at
+  // least 64.
   size_t views = 0;
 };
 struct ShadowMaps {

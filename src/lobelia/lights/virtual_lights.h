@@ -86,7 +86,7 @@ struct GaussianLight {
   Rgb diffuse{};
   Vec3f normal{0, 0, 1};
   float normalSharpness = 0;
-  Rgb glossy{};  // W, the integral of the Gaussian
+  Rgb glossy{};  // W, what leaves by the Gaussian, above the surfaces
   Vec3f axis{0, 0, 1};
   float sharpness = 0;
   // Points of the cluster, for shadow rays: the first is the nearest to the mean, the others are
@@ -97,6 +97,7 @@ struct GaussianLight {
   };
   static constexpr int kPlaces = 4;
   Place places[kPlaces];
+  float variance() const { return covariance[0] + covariance[1] + covariance[2]; }
   uint16_t group = 0;
   uint16_t depth = 0;
 };
@@ -112,10 +113,10 @@ struct GaussianShading {
   Form form = Form::accurate;
   // Where shadow rays end: at the place nearest to the mean, or at one of the places at random.
   enum class Ends : uint8_t { random, mean };
-  Ends ends = Ends::random;
+  Ends ends = Ends::mean;
   // Variance of places across the view: projected of the covariance, or half of its trace.
   bool projected = true;
-  float spread = 2;  // factor of the variance; 2 with half of the trace is the paper's equation 3
+  float spread = 1;  // factor of the variance; 2 with half of the trace is the paper's equation 3
   // Means of Gaussians by Toksvig's formula, as the paper has them, instead of exact ones.
   bool toksvig = false;
 };

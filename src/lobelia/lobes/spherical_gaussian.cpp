@@ -87,6 +87,10 @@ float cosineIntegral(float cosine, float sharpness) {
   return core::sgCosineIntegral(cosine, sharpness);
 }
 
+float clippedPeak(float cosine, float sharpness) {
+  return 1 / std::max(hemisphereIntegral(cosine, sharpness), 0.05f * integral(sharpness));
+}
+
 float vmfPdf(Vec3f axis, float kappa, Vec3f w) {
   return gaussian(axis, kappa, w) / integral(kappa);
 }

@@ -28,6 +28,9 @@ double inverseMeanResultant(double r);
 // integral of exp(sharpness(axis.w-1)) over the hemisphere with normal at cosine c to the axis
 float hemisphereIntegral(float cosine, float sharpness);  // Tokuyoshi 2022 form, error <= .0044 A
 float cosineIntegral(float cosine, float sharpness);      // times [n.w]+; Tokuyoshi et al. 2024
+// Amplitude per unit of what a Gaussian has above the horizon, at most 20 times what it would be
+// for the whole.
+float clippedPeak(float cosine, float sharpness);
 double hemisphereIntegralExact(double cosine, double sharpness,
                                int cosinePower);  // quadrature oracle
 

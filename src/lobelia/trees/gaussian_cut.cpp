@@ -88,16 +88,6 @@ void takeLeaves(const LightTree& tree, uint32_t node, std::vector<uint32_t>* out
   }
 }
 
-void widen(float leastVariance, GaussianLight* light) {
-  float* c = light->covariance;
-  const float missing = leastVariance - (c[0] + c[1] + c[2]);
-  if (!(missing > 0)) return;
-  const Vec3f n = light->normal;
-  const float half = 0.5f * missing;  // for each of the two directions of the plane
-  c[0] += half * (1 - n.x * n.x), c[1] += half * (1 - n.y * n.y), c[2] += half * (1 - n.z * n.z);
-  c[3] -= half * n.x * n.y, c[4] -= half * n.x * n.z, c[5] -= half * n.y * n.z;
-}
-
 }  // namespace
 
 CutClusters cutClusters(std::span<const LightPoint> points, size_t count, float scale) {

@@ -80,7 +80,7 @@ const std::map<std::string, CommandTexts>& texts() {
           "Where the rays of a render with --aov cost went"}}}},
       {"bench",
        {"Runs a study and prints its tables as Markdown, as they stand in docs/performance.md.",
-        {{"FOLDER/vsl.md, sglc.md", "vsl, sglc: tables and pictures on one page"},
+        {{"FOLDER/vsl.md, vsgl.md, sglc.md", "vsl, vsgl, sglc: tables and pictures on one page"},
          {"FOLDER/figure*.exr, .png", "vsl, sglc: the pictures"},
          {"FOLDER/figure*.svg", "sglc: the curves"}},
         {{"lobelia bench rates --json rates.json", "Measure rays per second"},
