@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "support/run_program.h"
@@ -142,6 +143,43 @@ double l2Of(const json& rows, const std::string& method) {
 
 // Metal walls, of which diffuse lights know nothing. All lights are gathered, so that a picture's
 // pixels are those that the clamps were chosen by.
+TEST(BenchVsgl, MoreLightsComeNearer) {
+  const TemporaryFolder folder;
+  const json result = runBench(
+      "vsgl --scene study-diffuse --figures sampling --size 24x18 --pixels 100 --spp 64 --seed 3 "
+      "--num-lights 4096 -o " +
+      folder.path());
+  const json& rows = result["sampling"];
+  expectNumbers(rows, 1 + 5 * 7, {"lights", "gather", "l2_path", "ratio_path"});
+  EXPECT_TRUE(rows[0]["l2"].is_null());
+  std::map<std::string, std::map<int, double>> l2;  // by way and number
+  for (size_t i = 1; i < rows.size(); ++i)
+    l2[rows[i]["clusters"]][rows[i]["wanted"].get<int>()] = rows[i]["l2"].get<double>();
+  for (const auto& [way, errors] : l2) {
+    EXPECT_LT(errors.at(256), 0.6 * errors.at(4)) << way;
+    EXPECT_LT(errors.at(1024), errors.at(64)) << way;
+  }
+  EXPECT_LT(l2["tree cut"][64], l2["sampling, bisection"][64]);
+  expectPictures(folder, "vsgl",
+                 {"sampling-study-diffuse-tree", "sampling-study-diffuse-fis",
+                  "sampling-study-diffuse-points", "sampling-study-diffuse-path"});
+}
+
+TEST(BenchVsgl, TimesAndCuts) {
+  const json result = runBench(
+      "vsgl --scene study-ggx --figures time,cuts --size 32x24 --pixels 60 --spp 64 --num-lights "
+      "2000");
+  const json& time = result["time"];
+  expectNumbers(time, 7, {"lights", "receivers", "shade", "mrays"});
+  EXPECT_EQ(time[0]["l2"], 0);
+  EXPECT_LT(time[4]["l2"], time[2]["l2"]) << "64 rays, 4 rays";
+  EXPECT_LT(time[2]["mrays"], time[0]["mrays"]);
+  EXPECT_EQ(time[6]["lights"], 2);
+  const json& cuts = result["cuts"];
+  expectNumbers(cuts, 21, {"gathered", "rays", "l2", "mean_ratio"});
+  EXPECT_GT(cuts[6]["gathered"], cuts[0]["gathered"]);
+}
+
 TEST(BenchVsl, MethodsSideBySide) {
   const TemporaryFolder folder;
   const json result = runBench("vsl --scene study-ggx --figures 1,2,6,7" +
