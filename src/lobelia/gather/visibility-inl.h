@@ -209,6 +209,7 @@ class VisiblePairs {
       if constexpr (kClass == g::LightClass::spherical)
         end = choose(dot(broadcast(light.n), d) > Vf(0.f), broadcast(light.endBehind), end);
       if (choosesPlaces()) end = chosenPlaces(l, s, lane);
+      if constexpr (kClusters) end = aboveHorizon(l, strip, lane, mask, end);
       // Clusters reach to both sides: the side that the ray's end is on counts.
       const V3<Vf> towards = kClusters ? end - load(strip.p, lane) : d;
       const Mf front = dot(load(strip.ng, lane), towards) >= Vf(0.f);
@@ -230,6 +231,20 @@ class VisiblePairs {
     V3<Vf> end = broadcast(block_.gaussians[l].ends[0]);
     for (int i = 1; i < GaussianLight::kPlaces; ++i)
       end = choose(maskFromBits(bits[i]), broadcast(block_.gaussians[l].ends[i]), end);
+    return end;
+  }
+  // What shading has of a cluster is the part above a receiver's horizon: where the end of its ray
+  // lies below, another place is asked for, if one is above.
+  HWY_INLINE V3<Vf> aboveHorizon(size_t l, const g::PointStrip& strip, size_t lane, Mf mask,
+                                 V3<Vf> end) const {
+    const V3<Vf> p = load(strip.p, lane);
+    Mf below = mask & !receiverFaces(strip, lane, end - p, 0);
+    for (int i = 0; i < GaussianLight::kPlaces && any(below); ++i) {
+      const V3<Vf> other = broadcast(block_.gaussians[l].ends[i]);
+      const Mf better = below & receiverFaces(strip, lane, other - p, 0);
+      end = choose(better, other, end);
+      below = below & !better;
+    }
     return end;
   }
   void hashPoints() {
