@@ -153,7 +153,7 @@ TEST(Completion, BashCompletes) {
   EXPECT_EQ(offeredByBash("lobelia ren"), Words{"render"});
   EXPECT_TRUE(contains(offeredByBash("lobelia render --li"), "--lights"));
   EXPECT_EQ(offeredByBash("lobelia render --lights ''"),
-            (Words{"path", "light", "photon", "vpl", "glossy", "vsl", "richvpl"}));
+            (Words{"path", "light", "photon", "vpl", "glossy", "vsl", "vsgl", "richvpl"}));
   EXPECT_EQ(offeredByBash("lobelia render --lights = gl"), Words{"glossy"});
   EXPECT_EQ(offeredByBash("lobelia render --aov albedo,dep"), Words{"albedo,depth"});
   EXPECT_TRUE(contains(offeredByBash("lobelia render kitch"), "kitchen"));
