@@ -70,6 +70,11 @@ void requireOptions(const Study& study, const BenchOptions& options) {
   }
   if (options.name != "sglc" && !options.methods.empty())
     throw UsageError(fmt::format("bench {} has no use for --methods; sglc has", options.name));
+  const bool hasSets =
+      options.name == "clamp" || options.name == "convergence" || options.name == "rates";
+  if (options.sets > 0 && !hasSets)
+    throw UsageError(fmt::format(
+        "bench {} has no use for --sets; clamp, convergence and rates have", options.name));
   if (study.figures != nullptr) return;
   if (options.scenes.size() > 1) {
     throw UsageError(

@@ -128,8 +128,8 @@ class Sampling {
     if (study_.cancelled()) return;
     const Comparison path = compare(all_, path_.first, &path_.second);
     const double none = std::nan("");
-    table().rows.push_back({study_.stem(scene_), "all texels", none, count, none, spent.total(),
-                            none, none, path.l2, path.meanRatio});
+    table().rows.push_back({scene_.name(), "all texels", none, count, none, spent.total(), none,
+                            none, path.l2, path.meanRatio});
   }
 
   VirtualLights clustered(const Way& way, size_t count, uint64_t run = 0) const {
@@ -164,7 +164,7 @@ class Sampling {
       note(compare(film, path_.first, &path_.second), path);
     }
     if (study_.cancelled()) return;
-    table().rows.push_back({study_.stem(scene_), way.label, static_cast<double>(count), made, make,
+    table().rows.push_back({scene_.name(), way.label, static_cast<double>(count), made, make,
                             gather, std::sqrt(texels[0]), texels[1], std::sqrt(path[0]), path[1]});
   }
 

@@ -63,7 +63,7 @@ void vsglTime(const std::string& name, const VsglStudy& study) {
     if (!first) first = film;
     const Comparison error = compared ? compare(film, *first) : Comparison{};
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    table.rows.push_back({study.stem(scene), static_cast<double>(count), shadows,
+    table.rows.push_back({scene.name(), static_cast<double>(count), shadows,
                           spent.seconds("receivers"), spent.seconds("lights"),
                           spent.seconds("visibility"), spent.seconds("shade"),
                           1e-6 * spent.count("shadow_rays"), compared ? error.l2 : kNone,
@@ -127,7 +127,7 @@ void vsglCuts(const std::string& name, const VsglStudy& study) {
       const Film film = scene.virtualLights(change, kVsglSeed);
       if (study.cancelled()) return;
       const Comparison error = compare(film, path.first, &path.second);
-      table.rows.push_back({study.stem(scene), run.label, static_cast<double>(run.lights),
+      table.rows.push_back({scene.name(), run.label, static_cast<double>(run.lights),
                             static_cast<double>(cut),
                             spent.count("cut_lights") / spent.count("receiver_clusters"),
                             spent.count("shadow_rays") / static_cast<double>(scene.pixelCount()),

@@ -25,6 +25,8 @@ constexpr const char* kCounters[] = {"path_rays",
                                      "shadow_rays",
                                      "nonfinite",
                                      "light_particles",
+                                     "light_points",
+                                     "rsm_texels",
                                      "lights_dropped",
                                      "paths_cut",
                                      "node_pairs_visited",
@@ -183,8 +185,9 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
   if (o.lights == "vsgl") {
     const GaussianShading shading = gaussianShadingOf(o);
     s.emplace_back("--vsgl-clusters", o.vsglClusters.empty() ? "tree" : o.vsglClusters);
-    s.emplace_back("--vsgl-points", std::to_string(o.vsglPoints));
-    s.emplace_back("--vsgl-views", std::to_string(o.vsglViews));
+    const auto count = [](size_t n) { return n > 0 ? std::to_string(n) : "default"; };
+    s.emplace_back("--vsgl-points", count(o.vsglPoints));
+    s.emplace_back("--vsgl-views", count(o.vsglViews));
     s.emplace_back("--vsgl-overlap", fmt::format("{}", o.vsglOverlap > 0 ? o.vsglOverlap : 1));
     s.emplace_back("--vsgl-shading", o.vsglShading.empty() ? "accurate" : o.vsglShading);
     s.emplace_back("--vsgl-variance", shading.projected ? "projected" : "isotropic");

@@ -41,6 +41,10 @@ std::vector<Points> apart(Points points, bool byDepth) {
   return kinds;
 }
 
+bool byTree(const RenderOptions& options) {
+  return options.vsglClusters.empty() || options.vsglClusters == "tree";
+}
+
 // A cluster of few points stands for the surface around them: its places vary by a quarter of what
 // those of all do in the mean, as trees have it by their parents (trees/gaussian_cut.cpp).
 void widenSmall(std::vector<GaussianLight>* lights) {
@@ -72,17 +76,16 @@ class Clustering {
         maps.others.insert(maps.others.end(), map.texels.begin(), map.texels.end());
     }
     std::erase_if(maps.others, [](const LightPoint& p) { return !(p.power() > 0); });
-    for (Points& kind : apart(std::move(maps.others), byDepth_))
-      add(mapOfPoints(std::move(kind), tracer_.bounds()));
+    for (Points& kind : apart(std::move(maps.others), byDepth_)) add({0, std::move(kind)});
   }
 
-  std::vector<GaussianLight> lights(size_t count) const {
+  std::vector<GaussianLight> lights(size_t count) {
+    joinFaint(count);
     std::vector<GaussianLight> all;
     for (size_t i = 0; i < runs_.size(); ++i) {
       if (!(powers_[i] > 0)) continue;
-      const double share = powers_[i] / total_;
       const size_t own =
-          static_cast<size_t>(std::max(1.0, std::round(share * static_cast<double>(count))));
+          static_cast<size_t>(std::max(1.0, std::round(shareOf(i) * static_cast<double>(count))));
       const std::vector<GaussianLight> lights = cluster(runs_[i], own, hashCombine(seed_, i));
       all.insert(all.end(), lights.begin(), lights.end());
     }
@@ -100,18 +103,43 @@ class Clustering {
   }
 
  private:
+  double shareOf(size_t run) const { return total_ > 0 ? powers_[run] / total_ : 0; }
+
+  // Depths that would have less than half a light are told as the one before them: where few lights
+  // are asked for, deep light counts as a little less deep.
+  void joinFaint(size_t count) {
+    const auto first = [&](size_t i) -> const LightPoint& { return runs_[i].texels.front(); };
+    for (size_t i = runs_.size(); i-- > 1;) {
+      const bool faint = shareOf(i) * static_cast<double>(count) < 0.5;
+      if (!faint || runs_[i].size > 0 || runs_[i - 1].size > 0 || first(i - 1).depth == 0 ||
+          first(i).group != first(i - 1).group)
+        continue;
+      Points& before = runs_[i - 1].texels;
+      const uint16_t depth = first(i - 1).depth;
+      for (LightPoint point : runs_[i].texels) {
+        point.depth = depth;
+        before.push_back(point);
+      }
+      runs_[i].texels.clear();
+      powers_[i - 1] += powers_[i];
+      powers_[i] = 0;
+    }
+  }
+
   void add(ReflectiveShadowMap run) {
     powers_.push_back(powerOf(run.texels));
     total_ += powers_.back();
     runs_.push_back(std::move(run));
   }
 
-  std::vector<GaussianLight> cluster(const ReflectiveShadowMap& run, size_t count,
+  std::vector<GaussianLight> cluster(const ReflectiveShadowMap& run, size_t wanted,
                                      uint64_t seed) const {
+    if (run.size == 0 && !byTree(options_))
+      return cluster(mapOfPoints(run.texels, tracer_.bounds()), wanted, seed);
+    const size_t count = std::min(wanted, run.texels.size());
     const float scale = 2 * std::max(tracer_.bounds().radius(), 1e-6f);
     const bool toksvig = options_.vsglMerging == "toksvig";
-    if (options_.vsglClusters.empty() || options_.vsglClusters == "tree")
-      return trees::cutLights(run.texels, count, scale, toksvig, seed);
+    if (byTree(options_)) return trees::cutLights(run.texels, count, scale, toksvig, seed);
     if (options_.vsglClusters == "kmeans") {
       const Clusters clusters = nearestCentres(run.texels, count, scale, run.size,
                                                run.inOrderOfPlace ? 0 : kMapWeight, seed);
@@ -133,7 +161,7 @@ class Clustering {
   const RenderOptions& options_;
   const bool byDepth_;
   const uint64_t seed_;
-  std::vector<ReflectiveShadowMap> runs_;  // of trees: of size 0, in no order
+  std::vector<ReflectiveShadowMap> runs_;  // of size 0: in no order
   std::vector<double> powers_;
   double total_ = 0;
 };
@@ -147,12 +175,8 @@ std::vector<uint32_t> depthEnds(const std::vector<GaussianLight>& lights) {
   return ends;
 }
 
-bool byTree(const RenderOptions& options) {
-  return options.vsglClusters.empty() || options.vsglClusters == "tree";
-}
-
-void finish(const Clustering& clustering, const LightSettings& settings,
-            const RenderOptions& options, VirtualLights* lights) {
+void finish(Clustering& clustering, const LightSettings& settings, const RenderOptions& options,
+            VirtualLights* lights) {
   lights->gaussian = clustering.lights(settings.count);
   lights->gaussianDepthEnds = depthEnds(lights->gaussian);
   lights->gaussianShading = gaussianShadingOf(options);

@@ -51,7 +51,7 @@ void addVsglOptions(CLI::App& c, RenderOptions& o) {
                "--lights vsgl: points, or texels of reflective shadow maps, that clusters are made "
                "of; default: 64 for each light, from 65536 to 1048576")
       ->type_name("N")
-      ->check(integerRange(1, int64_t{1} << 28));
+      ->check(integerRange(1, int64_t{1} << 24));
   c.add_option(
        "--vsgl-views", o.vsglViews,
        "--vsgl-clusters kmeans, fis, fis-original: reflective shadow maps; default: 1 for a "
@@ -105,7 +105,7 @@ void requireVsgl(const RenderOptions& options) {
   require("--vsgl-overlap", options.vsglOverlap > 0, maps && options.vsglClusters != "kmeans",
           "--vsgl-clusters fis and fis-original; other clusters do not overlap");
   const bool chosen = shadowRaysOf(options) >= 0;
-  require("--vsgl-shadows N and none", chosen, options.gather == "all",
+  require("--vsgl-shadows with N or none", chosen, options.gather == "all",
           "--gather all; other strategies trace the rays that they need");
 }
 

@@ -86,6 +86,7 @@ const std::map<std::string, CommandTexts>& texts() {
         {{"lobelia bench rates --json rates.json", "Measure rays per second"},
          {"lobelia bench vsl -o figures --json figures.json",
           "Figures of the paper on virtual spherical lights"},
+         {"lobelia bench vsgl --scene box --figures time", "Time of pictures with VSGLs"},
          {"lobelia bench sglc --figures table2,8 -o figures",
           "Gather strategies side by side: their table, and error over time"}}}},
       {"completion",
