@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "lights/light_source.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/lobes/spherical_gaussian.h"
 #include "support/box_scene.h"
@@ -13,20 +14,7 @@ namespace {
 
 using test::addMaterial;
 using test::boxScene;
-
-struct LightSource {
-  explicit LightSource(Scene s, uint64_t seed = 0)
-      : scene(std::move(s)), tracer(scene, context), emitters(scene, tracer.bounds()) {
-    context.seed = seed;
-  }
-  VirtualLights run(const LightSettings& settings) {
-    return makeLights(tracer, emitters, settings, context);
-  }
-  Context context;
-  Scene scene;
-  Tracer tracer;
-  EmitterSampler emitters;
-};
+using test::LightSource;
 
 Scene pointScene() {
   Scene scene = boxScene(false);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 
+#include "lights/light_source.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
 #include "lobelia/lobes/spherical_gaussian.h"
@@ -17,23 +18,7 @@ using test::addMaterial;
 using test::addQuad;
 using test::boxScene;
 using test::Lighting;
-
-struct LightSource {
-  explicit LightSource(Scene s, uint64_t seed = 0)
-      : scene(std::move(s)), tracer(scene, context), emitters(scene, tracer.bounds()) {
-    context.seed = seed;
-  }
-  std::vector<LightPoint> points(const LightSettings& settings) {
-    return makeLightPoints(tracer, emitters, settings, context);
-  }
-  ShadowMaps maps(const LightSettings& settings, const ShadowMapSettings& maps = {}) {
-    return makeShadowMaps(tracer, emitters, settings, maps, context);
-  }
-  Context context;
-  Scene scene;
-  Tracer tracer;
-  EmitterSampler emitters;
-};
+using test::LightSource;
 
 Material glossyMetal(float alpha) {
   Material metal;

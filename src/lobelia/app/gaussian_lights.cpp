@@ -9,6 +9,7 @@
 #include "lobelia/app/vsgl_options.h"
 #include "lobelia/base/random.h"
 #include "lobelia/lights/filtered_sampling.h"
+#include "lobelia/lights/light_order.h"
 #include "lobelia/trees/gaussian_cut.h"
 
 namespace lobelia::app {
@@ -31,8 +32,7 @@ std::vector<Points> apart(Points points, bool byDepth) {
   const auto key = [&](const LightPoint& p) {
     return std::pair(p.group, byDepth ? p.depth : std::min<uint16_t>(p.depth, 1));
   };
-  std::stable_sort(points.begin(), points.end(),
-                   [&](const LightPoint& a, const LightPoint& b) { return key(a) < key(b); });
+  sortByGroup(&points);
   std::vector<Points> kinds;
   for (const LightPoint& point : points) {
     if (kinds.empty() || key(kinds.back().front()) != key(point)) kinds.emplace_back();
