@@ -73,6 +73,34 @@ TEST_F(VsglRender, FewShadowRaysHaveTheMeanOfAll) {
   EXPECT_LT(statistics("none")["counts"]["rays_per_pixel"].get<double>(), 20);
 }
 
+TEST_F(VsglRender, ShadowMapsComeNearTheRays) {
+  const std::string base =
+      "--size 48x40 --component indirect --spp 4 --lights vsgl --num-lights 256 --passes 1 ";
+  const Film rays = render(base, "rays");
+  const Film none = render(base + "--vsgl-shadows none", "none");
+  double before = compare(none, rays).l2;
+  for (const char* size : {"16", "64", "256"}) {
+    const Comparison error =
+        compare(render(base + "--vsgl-shadows maps --vsgl-map-size " + size, size), rays);
+    EXPECT_LT(error.l2, before) << size;
+    EXPECT_NEAR(error.meanRatio, 1, 0.03) << size;
+    before = error.l2;
+  }
+  EXPECT_LT(before, 0.04);
+}
+
+TEST_F(VsglRender, PairsHaveTwoLightsForAnEmitter) {
+  const std::string base = "--size 48x40 --component indirect --max-depth 3 --spp ";
+  const Film path = render(base + "512 --lights path", "p");
+  const Film pairs =
+      render(base + "4 --lights vsgl --vsgl-clusters pairs --vsgl-shadows none", "v");
+  const double emitters = statistics("v")["scene"]["emitters"].get<double>();
+  EXPECT_LE(statistics("v")["lights"]["vsgl"].get<double>(), 2 * emitters);
+  EXPECT_GE(statistics("v")["lights"]["vsgl"].get<double>(), emitters);
+  EXPECT_NEAR(compare(pairs, path).meanRatio, 1, 0.6);
+  EXPECT_LT(compare(pairs, path).l2, 1);
+}
+
 TEST_F(VsglRender, OtherStrategiesGatherTheSame) {
   const std::string base =
       "--size 48x40 --component indirect --spp 16 --lights vsgl --num-lights 512 --passes 1 ";
@@ -115,8 +143,9 @@ TEST_F(VsglRender, SavedLightsRenderTheSame) {
 }
 
 TEST_F(VsglRender, ThreadsDoNotMatter) {
-  for (const char* more : {"--vsgl-clusters tree", "--vsgl-clusters fis --vsgl-shadows 4",
-                           "--vsgl-clusters kmeans --gather sglc"}) {
+  for (const char* more :
+       {"--vsgl-clusters tree", "--vsgl-clusters fis --vsgl-shadows 4", "--vsgl-shadows maps",
+        "--vsgl-clusters pairs", "--vsgl-clusters kmeans --gather sglc"}) {
     const std::string base =
         std::string("--size 32x24 --spp 2 --lights vsgl --num-lights 64 ") + more;
     EXPECT_EQ(render(base + " --threads 1", "one").layers.at("").values,
@@ -128,7 +157,12 @@ TEST_F(VsglRender, ThreadsDoNotMatter) {
 TEST_F(VsglRender, BadSettingsSayWhatIsRight) {
   expectError("--lights vsgl --gather lightcuts", "it does with all, mrcs, sglc");
   expectError("--lights vsgl --vsgl-clusters trees", "did you mean 'tree'");
-  expectError("--lights vsgl --vsgl-views 4", "--vsgl-clusters kmeans, fis and fis-original");
+  expectError("--lights vsgl --vsgl-views 4",
+              "--vsgl-clusters kmeans, fis, fis-original and pairs");
+  expectError("--lights vsgl --vsgl-map-size 64", "--vsgl-shadows maps");
+  expectError("--lights vsgl --vsgl-shadows maps --vsgl-map-size 7", "from 8 to 1024");
+  expectError("--lights vsgl --vsgl-shadows maps --gather mrcs", "--gather all");
+  expectError("--lights vsgl --vsgl-shadows map", "did you mean 'maps'");
   expectError("--lights vsgl --vsgl-clusters kmeans --vsgl-overlap 2", "do not overlap");
   expectError("--lights vsgl --vsgl-shadows 0", "from 1 to 4096");
   expectError("--lights vsgl --vsgl-shadows 4 --gather sglc", "--gather all");

@@ -159,7 +159,7 @@ TEST_F(ForestBounds, OfSphericalLightsHoldForEveryColor) {
     light.power = saturated(&rng);
   }
   floor.lights().sphericalDepthEnds = {0, 100};
-  const std::vector<PreparedSphere> prepared = prepareSpheres(floor.lights(), floor.scene());
+  const PreparedLights prepared = prepareLights(floor.lights(), floor.scene());
   light(floor.scene(), floor.lights(), LightClass::spherical, 100);
   expectBounds(
       plantLights(floor.lights(), settings_, 1, floor.scene(), floor.tracer().bounds(), prepared));

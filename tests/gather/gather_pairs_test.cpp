@@ -266,7 +266,7 @@ TEST_F(GatherPairs, HorizonsAreNotDark) {
   const LightForest lights = plantLights(above, settings_.gather, 1, empty, tracer.bounds(), {});
   ASSERT_EQ(lights.trees.size(), 1u);
   const ReceiverForest receivers = plantReceivers(receivers_, 1, false, false);
-  const std::vector<PreparedSphere> none;
+  const PreparedLights none;
   // A pair of nodes per tile, all of whose light is wanted, or none of it.
   const auto lit = [&](float threshold, uint64_t seed) {
     const PairScene scene{tracer, above, none, Share::visibility, 0, seed};

@@ -232,13 +232,11 @@ TEST_F(GaussianLightGather, MicrofacetsAsInThePaperComeNear) {
 // ---- Shadows
 // -------------------------------------------------------------------------------------
 
-TEST(GaussianShadows, FewRaysPerReceiverGiveTheSameMean) {
-  const Scene scene = randomTriangles(120, 7);
-  Context context;
-  const Tracer tracer(scene, context);
-  Rng rng(9);
+// Small lights at random places.
+VirtualLights scatteredLights(int count, uint64_t seed) {
+  Rng rng(seed);
   VirtualLights lights;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < count; ++i) {
     LightPoint point;
     point.p = randomPoint(&rng, 1.f);
     point.n = randomDirection(&rng);
@@ -251,6 +249,14 @@ TEST(GaussianShadows, FewRaysPerReceiverGiveTheSameMean) {
     for (int k = 0; k < 3; ++k) lights.gaussian.back().covariance[k] = 0.003f;
   }
   lights.gaussianDepthEnds = {static_cast<uint32_t>(lights.gaussian.size())};
+  return lights;
+}
+
+TEST(GaussianShadows, FewRaysPerReceiverGiveTheSameMean) {
+  const Scene scene = randomTriangles(120, 7);
+  Context context;
+  const Tracer tracer(scene, context);
+  VirtualLights lights = scatteredLights(300, 9);
   const Receivers receivers = randomReceivers(
       200, {LobeType::lambert, LobeType::phong, LobeType::microfacetReflection}, 2, 4);
   GatherSettings settings;
@@ -286,6 +292,80 @@ TEST(GaussianShadows, FewRaysPerReceiverGiveTheSameMean) {
   EXPECT_GT(darker, 100u);
   EXPECT_GT(lit, 150u);
   EXPECT_LE(beyond, 3u);
+}
+
+// ||a - b|| / ||b|| of luminances.
+double relativeDistance(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+  double square = 0, whole = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    const double l = static_cast<double>(luminance(b[i]));
+    const double d = static_cast<double>(luminance(a[i])) - l;
+    square += d * d, whole += l * l;
+  }
+  return std::sqrt(square / whole);
+}
+
+TEST(GaussianShadows, MapsComeToRaysWithTheirTexels) {
+  const Scene scene = randomTriangles(120, 7);
+  Context context;
+  const Tracer tracer(scene, context);
+  const VirtualLights lights = scatteredLights(40, 9);
+  const Receivers receivers = randomReceivers(400, {LobeType::lambert, LobeType::phong}, 2, 4);
+  GatherSettings settings;
+  settings.direct = true;
+  const auto gathered = [&](int texels, int rays) {
+    settings.depthMapTexels = texels, settings.shadowRays = rays;
+    std::vector<Rgb> values(receivers.points.size());
+    gatherAll(tracer, receivers, lights, settings, values, context);
+    return values;
+  };
+  const std::vector<Rgb> byRays = gathered(0, -1);
+  EXPECT_GT(relativeDistance(gathered(0, 0), byRays), 0.1);  // there are shadows
+  const double coarse = relativeDistance(gathered(16, -1), byRays);
+  const double fine = relativeDistance(gathered(512, -1), byRays);
+  EXPECT_GT(coarse, 0.01);
+  EXPECT_LT(coarse, 0.4);
+  EXPECT_LT(fine, 0.03);
+}
+
+// Whatever the angle: on a floor that nothing else is above, all that faces a light is lit.
+TEST(GaussianShadows, MapsDoNotShadowTheFloorThatTheyShow) {
+  Scene scene;
+  Mesh mesh;
+  mesh.positions = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene.meshes.push_back(mesh);
+  scene.materials.emplace_back();
+  Instance instance;
+  instance.mesh = MeshHandle{0}, instance.material = MaterialHandle{0};
+  scene.instances.push_back(instance);
+  Context context;
+  const Tracer tracer(scene, context);
+  VirtualLights lights = scatteredLights(20, 3);
+  for (GaussianLight& light : lights.gaussian) {
+    light.mean.z = light.places[0].p.z = 0.05f + std::abs(light.mean.z);
+    for (GaussianLight::Place& place : light.places) place = light.places[0];
+  }
+  Receivers receivers = randomReceivers(400, {LobeType::lambert}, 1, 4);
+  for (ReceiverPoint& r : receivers.points) {
+    r.p = Vec3f{20 * r.p.x, 20 * r.p.y, 0};
+    r.frame = Frame(Vec3f{0, 0, 1});
+    r.ng = {0, 0, 1};
+  }
+  GatherSettings settings;
+  settings.direct = true;
+  const auto gathered = [&](int texels, int rays) {
+    settings.depthMapTexels = texels, settings.shadowRays = rays;
+    std::vector<Rgb> values(receivers.points.size());
+    gatherAll(tracer, receivers, lights, settings, values, context);
+    return values;
+  };
+  const std::vector<Rgb> unshadowed = gathered(0, 0);
+  for (const int texels : {8, 64, 100}) {
+    const std::vector<Rgb> maps = gathered(texels, -1);
+    for (size_t i = 0; i < maps.size(); ++i)
+      EXPECT_EQ(luminance(maps[i]), luminance(unshadowed[i])) << texels << " " << i;
+  }
 }
 
 }  // namespace

@@ -150,6 +150,23 @@ TEST(FilteredSampling, PowerIsTheMapsInTheMean) {
   }
 }
 
+// Kernels hold equal shares of luminance, for every seed; what they hold of a colour varies, and is
+// right in the mean.
+TEST(FilteredSampling, ColoursAreTheMapsInTheMeanOfManySeeds) {
+  const ReflectiveShadowMap map = someMap(64, 30, 100, false);
+  constexpr int kSeeds = 2048;
+  std::vector<Vec3d> colours(kSeeds);
+  parallelFor(colours.size(), 16, [&](size_t seed) {
+    FilteredSampling sampling;
+    sampling.count = 100, sampling.seed = seed;
+    colours[seed] = powerOf(filteredLights(map, sampling));
+  });
+  Vec3d mean{};
+  for (const Vec3d& c : colours) mean += c / kSeeds;
+  const Vec3d exact = powerOf(map.texels);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], exact[c], 0.001 * exact[c]) << c;
+}
+
 TEST(FilteredSampling, OneLightHasAllOfTheMap) {
   const ReflectiveShadowMap map = someMap(32, 30, 100, true);
   FilteredSampling sampling;

@@ -70,7 +70,8 @@ void vsglTime(const std::string& name, const VsglStudy& study) {
                           compared ? error.meanRatio : kNone});
   };
   add(lights, "mean", true);
-  for (const char* shadows : {"random", "4", "16", "64", "none"}) add(lights, shadows, true);
+  for (const char* shadows : {"random", "maps", "4", "16", "64", "none"})
+    add(lights, shadows, true);
   add(2, "none", false);
 }
 

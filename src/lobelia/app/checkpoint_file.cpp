@@ -194,6 +194,7 @@ RenderIdentity identify(const Scene& scene, const Camera& camera, int maxDepth,
     s.emplace_back("--vsgl-spread", fmt::format("{}", shading.spread));
     s.emplace_back("--vsgl-merging", shading.toksvig ? "toksvig" : "exact");
     s.emplace_back("--vsgl-shadows", o.vsglShadows.empty() ? "mean" : o.vsglShadows);
+    s.emplace_back("--vsgl-map-size", std::to_string(mapSizeOf(o)));
   }
   if (o.lights == "richvpl") {
     s.emplace_back("--richvpl-lights", std::to_string(richLightsOf(o)));

@@ -41,8 +41,28 @@ std::vector<Points> apart(Points points, bool byDepth) {
   return kinds;
 }
 
+bool inPairs(const RenderOptions& options) { return options.vsglClusters == "pairs"; }
+
 bool byTree(const RenderOptions& options) {
   return options.vsglClusters.empty() || options.vsglClusters == "tree";
+}
+
+// Two lights of all points: what they scatter diffusely, and by Gaussians. Each is where its own
+// power is.
+std::vector<GaussianLight> lightsOfParts(const Points& points, bool toksvig, uint64_t seed) {
+  std::vector<GaussianLight> lights;
+  for (Rgb LightPoint::*const left : {&LightPoint::glossy, &LightPoint::diffuse}) {
+    Points part;
+    for (LightPoint point : points) {
+      point.*left = Rgb{};
+      if (point.power() > 0) part.push_back(point);
+    }
+    if (part.empty()) continue;
+    std::vector<uint32_t> all(part.size());
+    std::iota(all.begin(), all.end(), 0u);
+    lights.push_back(clusterLight(part, all, toksvig, hashCombine(seed, lights.size())));
+  }
+  return lights;
 }
 
 // A cluster of few points stands for the surface around them: its places vary by a quarter of what
@@ -69,18 +89,20 @@ class Clustering {
   }
   // Texels of several views have no square in common: they are ordered by place.
   void addMaps(ShadowMaps maps) {
-    if (maps.maps.size() == 1) {
-      add(std::move(maps.maps.front()));
+    if (maps.maps.size() == 1 || inPairs(options_)) {
+      for (ReflectiveShadowMap& map : maps.maps) add(std::move(map));
     } else {
       for (const ReflectiveShadowMap& map : maps.maps)
         maps.others.insert(maps.others.end(), map.texels.begin(), map.texels.end());
     }
     std::erase_if(maps.others, [](const LightPoint& p) { return !(p.power() > 0); });
-    for (Points& kind : apart(std::move(maps.others), byDepth_)) add({0, std::move(kind)});
+    // In pairs, deeper light counts as that of the second bounce.
+    for (Points& kind : apart(std::move(maps.others), byDepth_ && !inPairs(options_)))
+      add({0, std::move(kind)});
   }
 
   std::vector<GaussianLight> lights(size_t count) {
-    joinFaint(count);
+    if (!inPairs(options_)) joinFaint(count);
     std::vector<GaussianLight> all;
     for (size_t i = 0; i < runs_.size(); ++i) {
       if (!(powers_[i] > 0)) continue;
@@ -134,11 +156,12 @@ class Clustering {
 
   std::vector<GaussianLight> cluster(const ReflectiveShadowMap& run, size_t wanted,
                                      uint64_t seed) const {
+    const bool toksvig = options_.vsglMerging == "toksvig";
+    if (inPairs(options_)) return lightsOfParts(run.texels, toksvig, seed);
     if (run.size == 0 && !byTree(options_))
       return cluster(mapOfPoints(run.texels, tracer_.bounds()), wanted, seed);
     const size_t count = std::min(wanted, run.texels.size());
     const float scale = 2 * std::max(tracer_.bounds().radius(), 1e-6f);
-    const bool toksvig = options_.vsglMerging == "toksvig";
     if (byTree(options_)) return trees::cutLights(run.texels, count, scale, toksvig, seed);
     if (options_.vsglClusters == "kmeans") {
       const Clusters clusters = nearestCentres(run.texels, count, scale, run.size,
@@ -190,13 +213,15 @@ VirtualLights makeGaussianLights(const Tracer& tracer, const EmitterSampler& emi
   VirtualLights lights = emitterLights(emitters, settings, context);
   const uint64_t before = context.statistics.count("light_particles");
   LightSettings pointSettings = settings;
-  pointSettings.count = vsglPointsOf(options, settings.count);
+  pointSettings.count = vsglPointsOf(options, inPairs(options) ? 2 : settings.count);
   Clustering clustering(tracer, settings, options, lights.seed);
   if (byTree(options)) {
     clustering.addPoints(makeLightPoints(tracer, emitters, pointSettings, context));
   } else {
-    clustering.addMaps(makeShadowMaps(tracer, emitters, pointSettings,
-                                      {pointSettings.count, options.vsglViews}, context));
+    size_t views = options.vsglViews;
+    if (inPairs(options) && views == 0) views = std::max<size_t>(tracer.scene().emitters.size(), 1);
+    clustering.addMaps(
+        makeShadowMaps(tracer, emitters, pointSettings, {pointSettings.count, views}, context));
   }
   if (context.cancelled()) return lights;
   const StageTimer timer(context, "lights");

@@ -61,6 +61,7 @@ struct RenderOptions {
   // Of --lights vsgl (vsgl_options.h); "", 0: the default.
   std::string vsglClusters, vsglShading, vsglVariance, vsglMerging, vsglShadows;
   size_t vsglPoints = 0, vsglViews = 0;
+  int vsglMapSize = 0;
   double vsglOverlap = 0;
   float vsglSpread = 0;
   float specularLimit = 0.08f;

@@ -53,6 +53,8 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
     report("--env-lights", options.direct != "lights",
            "environments become lights with --direct lights only");
     const bool loads = !options.loadLights.empty();
+    report("--num-lights", options.lights == "vsgl" && options.vsglClusters == "pairs",
+           "--vsgl-clusters pairs has two lights for each view and for what goes on from there");
     report("--num-lights", loads, "--load-lights brings the lights that it holds");
     for (const char* name :
          {"--vsgl-clusters", "--vsgl-points", "--vsgl-views", "--vsgl-overlap", "--vsgl-merging"})
@@ -74,7 +76,7 @@ std::vector<std::string> unusedOptions(const RenderOptions& options) {
     report(name, options.lights != "richvpl", "only --lights richvpl has Rich-VPLs");
   for (const char* name :
        {"--vsgl-clusters", "--vsgl-points", "--vsgl-views", "--vsgl-overlap", "--vsgl-shading",
-        "--vsgl-variance", "--vsgl-spread", "--vsgl-merging", "--vsgl-shadows"})
+        "--vsgl-variance", "--vsgl-spread", "--vsgl-merging", "--vsgl-shadows", "--vsgl-map-size"})
     report(name, options.lights != "vsgl", "only --lights vsgl has spherical Gaussian lights");
   report("--clamp", (options.lights == "vsl" || options.lights == "vsgl") && options.clamp != "off",
          "spherical and spherical Gaussian lights have no spikes to clamp");

@@ -14,6 +14,8 @@ GaussianShading gaussianShadingOf(const RenderOptions& options);
 // Shadow rays of a receiver to lights chosen by what they would send it; below 0: one to every
 // light.
 int shadowRaysOf(const RenderOptions& options);
+// Texels on a side of a light's shadow map; 0: rays.
+int mapSizeOf(const RenderOptions& options);
 // Points that `lights` clusters are made of.
 size_t vsglPointsOf(const RenderOptions& options, size_t lights);
 

@@ -93,13 +93,13 @@ class ChosenGather::Agreement {
 
 ChosenGather::ChosenGather(const Tracer& tracer, const Receivers& receivers,
                            std::span<const uint32_t> order, const VirtualLights& lights,
-                           const std::vector<PreparedSphere>& spheres,
-                           const GatherSettings& settings, GatherParts* parts)
+                           const PreparedLights& prepared, const GatherSettings& settings,
+                           GatherParts* parts)
     : tracer_(tracer),
       receivers_(receivers),
       order_(order),
       lights_(lights),
-      spheres_(spheres),
+      prepared_(prepared),
       settings_(settings),
       parts_(parts) {}
 
@@ -143,7 +143,7 @@ void ChosenGather::addBlock(const Tile& tile, std::span<const ChosenLight> chose
   uint32_t indices[kBlockLights];
   for (size_t i = 0; i < chosen.size(); ++i) indices[i] = static_cast<uint32_t>(chosen[i].index);
   prepareChosen(lights_, tracer_.scene(), chosen[0].lightClass, {indices, chosen.size()}, &block_,
-                spheres_);
+                prepared_);
   for (size_t i = 0; i < chosen.size(); ++i) block_.lights[i].intensity *= chosen[i].scale;
   allowPairs(tile, block_, lights_, settings_, &pairs_);
   if (parts != nullptr) parts->watchRays(&pairs_);

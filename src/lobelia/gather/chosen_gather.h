@@ -38,9 +38,9 @@ void gatherInParallel(size_t count, size_t grain, Context& context,
 class ChosenGather {
  public:
   // receivers: in the tiles' order, order[i] what receiver i is called in radiance; parts: in the
-  // tiles' order; null: none. spheres: prepareSpheres(). All must outlive it.
+  // tiles' order; null: none. prepared: prepareLights(). All must outlive it.
   ChosenGather(const Tracer& tracer, const Receivers& receivers, std::span<const uint32_t> order,
-               const VirtualLights& lights, const std::vector<PreparedSphere>& spheres,
+               const VirtualLights& lights, const PreparedLights& prepared,
                const GatherSettings& settings, GatherParts* parts);
 
   // A tile of receivers [begin, end), with what spherical lights need.
@@ -61,7 +61,7 @@ class ChosenGather {
   const Receivers& receivers_;
   const std::span<const uint32_t> order_;
   const VirtualLights& lights_;
-  const std::vector<PreparedSphere>& spheres_;
+  const PreparedLights& prepared_;
   const GatherSettings& settings_;
   GatherParts* const parts_;
   LightBlock block_;

@@ -22,6 +22,7 @@
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
+#include "lobelia/gather/depth_maps.h"
 #include "lobelia/gather/facing_pairs.h"
 #include "lobelia/gather/gather.h"
 #include "lobelia/gather/kernels.h"
@@ -55,7 +56,9 @@ class TileGather {
         context_(context),
         near_(lights, rangeForDepth(lights, LightClass::spherical, settings, 0).begin) {
     // Of the near field a tile prepares what reaches it.
-    if (!near_.used()) spheres_ = prepareSpheres(lights, tracer.scene());
+    prepared_ = prepareLights(lights, tracer.scene(), !near_.used());
+    if (settings.depthMapTexels > 0 && !lights.gaussian.empty())
+      depthMaps_.emplace(tracer, lights, settings.depthMapTexels, context);
   }
 
   // False when cancelled before the end: then nothing was added to radiance.
@@ -82,6 +85,8 @@ class TileGather {
     return true;
   }
 
+  uint64_t mapRays() const { return depthMaps_ ? depthMaps_->rays() : 0; }
+
  private:
   bool addClass(const Tile& tile, LightClass lightClass, TileSums* sums, TileParts* parts,
                 Tally* tally) const {
@@ -101,9 +106,10 @@ class TileGather {
       const size_t count = std::min(kBlockLights, range.end - first);
       const uint32_t wanted = near ? near_.reaching(bounds, first, count) : ~0u;
       if (wanted == 0) continue;
-      prepare(lights_, tracer_.scene(), lightClass, first, count, &block, spheres_, wanted);
+      prepare(lights_, tracer_.scene(), lightClass, first, count, &block, prepared_, wanted);
       if (settings_.rich != nullptr && lightClass == LightClass::diffuse)
         settings_.rich->unpack(&block);
+      if (depthMaps_) block.depthMaps = &*depthMaps_;
       allowPairs(tile, block, lights_, settings_, &pairs);
       if (parts != nullptr) parts->watchRays(&pairs);
       const int64_t start = nanosecondsNow();
@@ -123,7 +129,7 @@ class TileGather {
 
   bool addByChoice(const Tile& tile, const LightRange& range, TileSums* sums, Tally* tally) const {
     if (context_.cancelled()) return false;
-    const ShadowScene scene{tracer_, lights_, settings_};
+    const ShadowScene scene{tracer_, lights_, prepared_, settings_};
     ShadowChoice choice(scene, tile, hashCombine(kShadowStream, lights_.seed));
     tally->rays += choice.add(range.begin, range.end, sums);
     tally->visibilityNs += choice.visibilityNs;
@@ -156,7 +162,8 @@ class TileGather {
   GatherParts* parts_;
   const Context& context_;
   const NearField near_;
-  std::vector<PreparedSphere> spheres_;
+  PreparedLights prepared_;
+  std::optional<DepthMaps> depthMaps_;
 };
 
 // Layers of values, [layer][point].
@@ -207,7 +214,9 @@ void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLi
   const size_t size = tilePoints(points);
   const size_t tiles = (points + size - 1) / size;
   if (parts != nullptr) parts->reset(points);
+  const int64_t start = nanosecondsNow();
   const TileGather tileGather(tracer, receivers, lights, settings, parts, context);
+  const double prepared = 1e-9 * static_cast<double>(nanosecondsNow() - start);
   std::atomic<uint64_t> rays{0}, pairs{0}, nonfinite{0};
   std::atomic<int64_t> visibilityNs{0}, shadeNs{0};
   std::atomic<size_t> done{0};
@@ -230,10 +239,11 @@ void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLi
     context.progress("gather", static_cast<double>(++done) / static_cast<double>(tiles));
   });
   const double toSeconds = 1e-9 / threadCount();
-  context.statistics.addCount("shadow_rays", rays);
+  context.statistics.addCount("shadow_rays", rays + tileGather.mapRays());
   context.statistics.addCount("node_pairs_shaded", pairs);
   context.statistics.addCount("nonfinite", nonfinite);
-  context.statistics.addSeconds("visibility", static_cast<double>(visibilityNs) * toSeconds);
+  context.statistics.addSeconds("visibility",
+                                prepared + static_cast<double>(visibilityNs) * toSeconds);
   context.statistics.addSeconds("shade", static_cast<double>(shadeNs) * toSeconds);
 }
 

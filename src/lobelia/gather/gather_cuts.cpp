@@ -37,7 +37,7 @@ class LightCuts::ClusterGather {
   ClusterGather(const LightCuts& cuts, const ReceiverClusters& clusters, GatherParts* parts)
       : cuts_(cuts),
         receivers_(clusters.receivers),
-        gather_(cuts.tracer_, receivers_, clusters.order, cuts.lights_, cuts.spheres_,
+        gather_(cuts.tracer_, receivers_, clusters.order, cuts.lights_, cuts.prepared_,
                 cuts.settings_.gather, parts) {}
 
   // As lights look for the cluster.
@@ -128,8 +128,8 @@ LightCuts::LightCuts(const Tracer& tracer, const VirtualLights& lights,
     : tracer_(tracer), lights_(lights), settings_(settings), numbers_(lights, settings.gather) {
   const StageTimer timer(context, "trees");
   const Bounds3f bounds = tracer.bounds();
-  spheres_ = prepareSpheres(lights, tracer.scene());
-  auto inputs = treeLights(lights, numbers_, tracer.scene(), bounds, spheres_);
+  prepared_ = prepareLights(lights, tracer.scene());
+  auto inputs = treeLights(lights, numbers_, tracer.scene(), bounds, prepared_);
   for (size_t t = 0; t < kLightTrees && !context.cancelled(); ++t) {
     trees_[t] = trees::LightTree(inputs[t].lights, inputs[t].numbers, 2 * bounds.radius());
     inputs[t] = {};

@@ -56,7 +56,7 @@ class LightCuts : public PreparedGather {
   const CutGatherSettings settings_;
   const LightNumbers numbers_;
   trees::LightTree trees_[kLightTrees];
-  std::vector<PreparedSphere> spheres_;
+  PreparedLights prepared_;
 };
 
 }  // namespace lobelia::gather

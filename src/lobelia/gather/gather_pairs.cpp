@@ -52,9 +52,9 @@ class LightPairs::Run {
         range_(pixelRangeOf(receivers)),
         parts_(parts),
         context_(context),
-        scene_{pairs.tracer_,   pairs.lights_,          pairs.spheres_,
+        scene_{pairs.tracer_,   pairs.lights_,          pairs.prepared_,
                settings_.share, settings_.gather.clamp, settings_.seed},
-        estimateScene_{pairs.tracer_,     pairs.lights_,          pairs.spheres_,
+        estimateScene_{pairs.tracer_,     pairs.lights_,          pairs.prepared_,
                        Share::visibility, settings_.gather.clamp, settings_.seed} {
     pixels_.resize(range_.size);
     for (const ReceiverPoint& point : receivers.points) pixels_[range_.at(point.pixel)].used = true;
@@ -301,7 +301,7 @@ LightPairs::LightPairs(const Tracer& tracer, const VirtualLights& lights,
                        const PairGatherSettings& settings, Context& context)
     : tracer_(tracer), lights_(lights), settings_(settings) {
   const StageTimer timer(context, "trees");
-  spheres_ = prepareSpheres(lights, tracer.scene());
+  prepared_ = prepareLights(lights, tracer.scene());
   forestFor(1);
 }
 
@@ -314,7 +314,7 @@ const LightForest& LightPairs::forestFor(int receiverDepth) const {
   if (found != forests_.end()) return found->second;
   LightForest& forest = forests_[ends];
   forest = plantLights(lights_, settings_.gather, receiverDepth, tracer_.scene(), tracer_.bounds(),
-                       spheres_);
+                       prepared_);
   planted_.push_back(&forest);
   return forest;
 }

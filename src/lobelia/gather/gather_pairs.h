@@ -60,7 +60,7 @@ class LightPairs : public PreparedGather {
   const Tracer& tracer_;
   const VirtualLights& lights_;
   const PairGatherSettings settings_;
-  std::vector<PreparedSphere> spheres_;
+  PreparedLights prepared_;
   // By the end of each class' range: receivers of different depths may gather different lights.
   mutable std::mutex mutex_;
   mutable std::map<std::vector<size_t>, LightForest> forests_;

@@ -64,7 +64,7 @@ class IlluminationCut::Run {
   void forTiles(const char* stage, const F& f) {
     const IlluminationScene scene{
         cut_.tracer_,          cut_.lights_,
-        cut_.spheres_,         cut_.forest_,
+        cut_.prepared_,        cut_.forest_,
         cut_.representatives_, whole_.receivers,
         cut_.settings_.gather, cut_.settings_.sampled && cut_.settings_.threshold > 0,
         cut_.settings_.seed};
@@ -120,9 +120,9 @@ IlluminationCut::IlluminationCut(const Tracer& tracer, const VirtualLights& ligh
     : tracer_(tracer),
       lights_(lights),
       settings_(settings),
-      spheres_(prepareSpheres(lights, tracer.scene())) {
+      prepared_(prepareLights(lights, tracer.scene())) {
   const StageTimer timer(context, "trees");
-  forest_ = plantLights(lights, settings.gather, 1, tracer.scene(), tracer.bounds(), spheres_);
+  forest_ = plantLights(lights, settings.gather, 1, tracer.scene(), tracer.bounds(), prepared_);
   representatives_ = Representatives(forest_, settings.seed);
 }
 

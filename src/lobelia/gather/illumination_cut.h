@@ -61,7 +61,7 @@ class IlluminationCut : public PreparedGather {
   const Tracer& tracer_;
   const VirtualLights& lights_;
   const IlluminationCutSettings settings_;
-  std::vector<PreparedSphere> spheres_;
+  PreparedLights prepared_;
   LightForest forest_;
   Representatives representatives_;
 };

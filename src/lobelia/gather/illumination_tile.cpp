@@ -104,7 +104,7 @@ void IlluminationTile::forBlocks(uint32_t t, std::vector<Accepted>* pairs, const
     for (size_t i = 0; i < block.nodes.size(); ++i)
       indices[i] = scene_.representatives.light(t, block.nodes[i]);
     prepareChosen(scene_.lights, scene_.tracer.scene(), scene_.forest.trees[t].lightClass,
-                  {indices, block.nodes.size()}, &block_, scene_.spheres);
+                  {indices, block.nodes.size()}, &block_, scene_.prepared);
     for (size_t i = 0; i < block.nodes.size(); ++i)
       block_.lights[i].intensity *= scene_.representatives.scale(t, block.nodes[i]);
     allowPairs(tile_, block_, scene_.lights, scene_.settings, &allowed_);

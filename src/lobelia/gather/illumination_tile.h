@@ -15,7 +15,7 @@ namespace lobelia::gather {
 struct IlluminationScene {
   const Tracer& tracer;
   const VirtualLights& lights;
-  const std::vector<PreparedSphere>& spheres;  // prepareSpheres()
+  const PreparedLights& prepared;  // prepareLights()
   const LightForest& forest;
   const Representatives& representatives;
   const Receivers& receivers;  // WholeReceivers::receivers

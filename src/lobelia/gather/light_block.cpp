@@ -106,11 +106,14 @@ size_t upToDepth(const std::vector<uint32_t>& ends, size_t count, int depth) {
   return d < ends.size() ? std::min<size_t>(ends[d], count) : count;
 }
 
-void prepareGaussians(const VirtualLights& lights, LightBlock* block) {
+void prepareGaussians(const VirtualLights& lights, const std::vector<PreparedGaussian>& shared,
+                      LightBlock* block) {
   block->gaussianShading = lights.gaussianShading;
   for (int i = 0; i < block->count; ++i) {
+    const uint32_t index = block->index[i];
     PreparedGaussian& gaussian = block->gaussians[i];
-    gaussian = prepareGaussian(lights.gaussian[block->index[i]], lights.gaussianShading);
+    gaussian = shared.empty() ? prepareGaussian(lights.gaussian[index], lights.gaussianShading)
+                              : shared[index];
     PreparedLight& out = block->lights[i];
     out = {};
     out.p = gaussian.mean;
@@ -208,20 +211,26 @@ size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass) {
   return first(lights.glossyDepthEnds);
 }
 
-std::vector<PreparedSphere> prepareSpheres(const VirtualLights& lights, const Scene& scene) {
+PreparedLights prepareLights(const VirtualLights& lights, const Scene& scene, bool spheres) {
   constexpr size_t kMostBytes = size_t{512} << 20;
-  std::vector<PreparedSphere> spheres;
-  if (lights.spherical.size() > kMostBytes / sizeof(PreparedSphere)) return spheres;
-  spheres.resize(lights.spherical.size());
-  parallelFor(spheres.size(), 64, [&](size_t i) {
-    prepareSphere(scene, lights.spherical[i], lights.specularLimit, &spheres[i]);
-  });
-  return spheres;
+  PreparedLights prepared;
+  if (spheres && lights.spherical.size() <= kMostBytes / sizeof(PreparedSphere)) {
+    prepared.spheres.resize(lights.spherical.size());
+    parallelFor(prepared.spheres.size(), 64, [&](size_t i) {
+      prepareSphere(scene, lights.spherical[i], lights.specularLimit, &prepared.spheres[i]);
+    });
+  }
+  if (lights.gaussian.size() <= kMostBytes / sizeof(PreparedGaussian)) {
+    prepared.gaussians.resize(lights.gaussian.size());
+    parallelFor(prepared.gaussians.size(), 64, [&](size_t i) {
+      prepared.gaussians[i] = prepareGaussian(lights.gaussian[i], lights.gaussianShading);
+    });
+  }
+  return prepared;
 }
 
 void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightClass, size_t first,
-             size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared,
-             uint32_t wanted) {
+             size_t count, LightBlock* block, const PreparedLights& shared, uint32_t wanted) {
   uint32_t indices[kBlockLights];
   count = std::min(count, kBlockLights);
   for (size_t i = 0; i < count; ++i) indices[i] = static_cast<uint32_t>(first + i);
@@ -230,10 +239,11 @@ void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightCl
 
 void prepareChosen(const VirtualLights& lights, const Scene& scene, LightClass lightClass,
                    std::span<const uint32_t> indices, LightBlock* block,
-                   const std::vector<PreparedSphere>& shared, uint32_t wanted) {
+                   const PreparedLights& shared, uint32_t wanted) {
   if (indices.size() > kBlockLights) throw std::invalid_argument("prepareChosen: too many");
   block->patterns.clear();
   block->rich = nullptr;
+  block->depthMaps = nullptr;
   block->lightClass = lightClass;
   block->count = static_cast<int>(indices.size());
   std::copy(indices.begin(), indices.end(), block->index);
@@ -248,9 +258,9 @@ void prepareChosen(const VirtualLights& lights, const Scene& scene, LightClass l
     case LightClass::glossy:
       return prepareAll(lights.glossy, block);
     case LightClass::spherical:
-      return prepareSpheres(lights, scene, shared, wanted, block);
+      return prepareSpheres(lights, scene, shared.spheres, wanted, block);
     case LightClass::gaussian:
-      return prepareGaussians(lights, block);
+      return prepareGaussians(lights, shared.gaussians, block);
   }
 }
 

@@ -43,7 +43,14 @@ struct PreparedLight {
   uint32_t pattern = kNoPattern;  // omni: index into LightBlock::patterns
 };
 
+class DepthMaps;
 class RichRadiance;
+
+// Lights unpacked once for whoever needs them again and again; what is too much to keep is missing.
+struct PreparedLights {
+  std::vector<PreparedSphere> spheres;
+  std::vector<PreparedGaussian> gaussians;
+};
 
 inline constexpr size_t kBlockLights = 32;
 struct LightBlock {
@@ -57,6 +64,8 @@ struct LightBlock {
   SphereShading sphereShading;
   PreparedGaussian gaussians[kBlockLights];  // parallel to lights
   GaussianShading gaussianShading;
+  // Of Gaussian lights: looked up in place of shadow rays where it can be; null: rays alone.
+  const DepthMaps* depthMaps = nullptr;
   // Of diffuse lights: what they send out in place of a cosine lobe; null: nothing else. Their
   // intensity is its peak (RichRadiance::unpack()).
   const RichRadiance* rich = nullptr;
@@ -76,17 +85,16 @@ size_t lightCount(const VirtualLights& lights, LightClass lightClass);
 size_t lightsUpToDepth(const VirtualLights& lights, LightClass lightClass, int depth);
 // How many of the lights of a class are on emitters themselves (depth 0); they come first.
 size_t emitterLightCount(const VirtualLights& lights, LightClass lightClass);
-// All spherical lights unpacked, for whoever prepares them again and again; empty when they are too
-// many to keep.
-std::vector<PreparedSphere> prepareSpheres(const VirtualLights& lights, const Scene& scene);
-// The block's patterns keep references to the scene. shared: prepareSpheres(); it must outlive the
+// spheres: false: not those.
+PreparedLights prepareLights(const VirtualLights& lights, const Scene& scene, bool spheres = true);
+// The block's patterns keep references to the scene. shared: prepareLights(); it must outlive the
 // block. wanted: bit per spherical light; the others reach nothing.
 void prepare(const VirtualLights& lights, const Scene& scene, LightClass lightClass, size_t first,
-             size_t count, LightBlock* block, const std::vector<PreparedSphere>& shared = {},
+             size_t count, LightBlock* block, const PreparedLights& shared = {},
              uint32_t wanted = ~0u);
 // The same of any lights of a class, at most kBlockLights.
 void prepareChosen(const VirtualLights& lights, const Scene& scene, LightClass lightClass,
                    std::span<const uint32_t> indices, LightBlock* block,
-                   const std::vector<PreparedSphere>& shared = {}, uint32_t wanted = ~0u);
+                   const PreparedLights& shared = {}, uint32_t wanted = ~0u);
 
 }  // namespace lobelia::gather

@@ -75,8 +75,8 @@ BoundItem itemOf(const GaussianLight& light, const GaussianShading& shading) {
 class Planter {
  public:
   Planter(const VirtualLights& lights, const Scene& scene, const Bounds3f& bounds,
-          const std::vector<PreparedSphere>& spheres)
-      : lights_(lights), scene_(scene), scale_(2 * bounds.radius()), spheres_(spheres) {}
+          const PreparedLights& prepared)
+      : lights_(lights), scene_(scene), scale_(2 * bounds.radius()), prepared_(prepared) {}
 
   // indices: of the lights in the class.
   void plant(LightClass lightClass, const std::vector<uint32_t>& indices, bool apart,
@@ -98,8 +98,9 @@ class Planter {
 
  private:
   BoundItem boundItem(LightClass lightClass, size_t index) const {
-    if (lightClass != LightClass::spherical || !spheres_.empty())
-      return boundItemOf(lights_, lightClass, index, spheres_.empty() ? nullptr : &spheres_[index]);
+    const std::vector<PreparedSphere>& spheres = prepared_.spheres;
+    if (lightClass != LightClass::spherical || !spheres.empty())
+      return boundItemOf(lights_, lightClass, index, spheres.empty() ? nullptr : &spheres[index]);
     PreparedSphere own;
     prepareSphere(scene_, lights_.spherical[index], lights_.specularLimit, &own);
     return boundItemOf(lights_, lightClass, index, &own);
@@ -119,7 +120,7 @@ class Planter {
   const VirtualLights& lights_;
   const Scene& scene_;
   const float scale_;
-  const std::vector<PreparedSphere>& spheres_;
+  const PreparedLights& prepared_;
 };
 
 PreparedLight merged(const trees::BoundNode& node, LightClass lightClass, Rgb power) {
@@ -179,9 +180,9 @@ Rgb lightPower(const VirtualLights& lights, LightClass lightClass, size_t index)
 
 LightForest plantLights(const VirtualLights& lights, const GatherSettings& settings,
                         int receiverDepth, const Scene& scene, const Bounds3f& bounds,
-                        const std::vector<PreparedSphere>& spheres) {
+                        const PreparedLights& prepared) {
   LightForest forest;
-  const Planter planter(lights, scene, bounds, spheres);
+  const Planter planter(lights, scene, bounds, prepared);
   for (const LightClass lightClass : kLightClasses) {
     const LightRange range = rangeForDepth(lights, lightClass, settings, receiverDepth);
     // By group; first the lights that others stand for.
@@ -211,12 +212,12 @@ uint32_t lightOf(const LightForest::Tree& tree, uint32_t node, uint64_t key) {
 }
 
 void prepareNodes(const VirtualLights& lights, const Scene& scene, const LightForest::Tree& tree,
-                  std::span<const uint32_t> nodes, const std::vector<PreparedSphere>& spheres,
+                  std::span<const uint32_t> nodes, const PreparedLights& prepared,
                   LightBlock* block) {
   uint32_t indices[kBlockLights];
   for (size_t i = 0; i < nodes.size(); ++i)
     indices[i] = lightOf(tree, nodes[i], hashCombine(kStandsFor, nodes[i]));
-  prepareChosen(lights, scene, tree.lightClass, {indices, nodes.size()}, block, spheres);
+  prepareChosen(lights, scene, tree.lightClass, {indices, nodes.size()}, block, prepared);
   for (size_t i = 0; i < nodes.size(); ++i) {
     const trees::BoundNode& node = tree.tree.nodes()[nodes[i]];
     if (node.leaf()) continue;

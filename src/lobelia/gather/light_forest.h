@@ -32,16 +32,16 @@ trees::BoundItem boundItemOf(const VirtualLights& lights, LightClass lightClass,
 // Of a light, as LightForest::Tree::power counts it.
 Rgb lightPower(const VirtualLights& lights, LightClass lightClass, size_t index);
 
-// Lights that receivers of this depth gather. bounds: of the scene. spheres: prepareSpheres(). The
+// Lights that receivers of this depth gather. bounds: of the scene. prepared: prepareLights(). The
 // same for any number of threads.
 LightForest plantLights(const VirtualLights& lights, const GatherSettings& settings,
                         int receiverDepth, const Scene& scene, const Bounds3f& bounds,
-                        const std::vector<PreparedSphere>& spheres);
+                        const PreparedLights& prepared);
 
 // What stands for nodes of a tree, at most kBlockLights of them, as a block to be shaded. A leaf's
-// light is itself, with its index. spheres: must outlive the block.
+// light is itself, with its index. prepared: must outlive the block.
 void prepareNodes(const VirtualLights& lights, const Scene& scene, const LightForest::Tree& tree,
-                  std::span<const uint32_t> nodes, const std::vector<PreparedSphere>& spheres,
+                  std::span<const uint32_t> nodes, const PreparedLights& prepared,
                   LightBlock* block);
 
 // A light of a node, drawn by its share of the node's power (luminances) with a random number:

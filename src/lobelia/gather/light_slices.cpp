@@ -101,7 +101,7 @@ LightSlices::LightSlices(const Tracer& tracer, const Receivers& sample, const Vi
   } else {
     choose(tracer, lit, context);
   }
-  spheres_ = prepareSpheres(lights, tracer.scene());
+  prepared_ = prepareLights(lights, tracer.scene());
 }
 
 void LightSlices::chooseAll() {
@@ -182,7 +182,7 @@ void LightSlices::gather(const Receivers& receivers, uint32_t onlyPixel, std::sp
     ordered->reset(points);
   }
   gatherInParallel(tiles.size(), 1, context, [&](size_t begin, size_t end, GatherTally* tally) {
-    ChosenGather gather(tracer_, sliced.receivers, sliced.order, lights_, spheres_,
+    ChosenGather gather(tracer_, sliced.receivers, sliced.order, lights_, prepared_,
                         settings_.gather, ordered ? &*ordered : nullptr);
     for (size_t t = begin; t < end && !context.cancelled(); ++t) {
       const TileRange& range = tiles[t];

@@ -60,7 +60,7 @@ class LightSlices : public PreparedGather {
   const LightNumbers numbers_;
   std::optional<ReceiverSlices> slices_;          // none: all receivers gather all lights
   std::vector<std::vector<ChosenLight>> chosen_;  // of each slice
-  std::vector<PreparedSphere> spheres_;
+  PreparedLights prepared_;
 };
 
 }  // namespace lobelia::gather

@@ -105,7 +105,7 @@ class Lightcuts::PointGather {
     uint32_t indices[kBlockLights];
     for (size_t i = 0; i < nodes.size(); ++i) indices[i] = lightOf(*nodes[i]);
     prepareChosen(cuts_.lights_, cuts_.tracer_.scene(), lightClass, {indices, nodes.size()},
-                  &block_, cuts_.spheres_);
+                  &block_, cuts_.prepared_);
     allowPairs(tile_, block_, cuts_.lights_, cuts_.settings_.gather, &pairs_);
     const int64_t start = nanosecondsNow();
     tally_.rays += keepVisible(tile_, block_, cuts_.tracer_, &pairs_);
@@ -135,9 +135,9 @@ Lightcuts::Lightcuts(const Tracer& tracer, const VirtualLights& lights,
     : tracer_(tracer),
       lights_(lights),
       settings_(settings),
-      spheres_(prepareSpheres(lights, tracer.scene())) {
+      prepared_(prepareLights(lights, tracer.scene())) {
   const StageTimer timer(context, "trees");
-  forest_ = plantLights(lights, settings.gather, 1, tracer.scene(), tracer.bounds(), spheres_);
+  forest_ = plantLights(lights, settings.gather, 1, tracer.scene(), tracer.bounds(), prepared_);
   representatives_ = Representatives(forest_, settings_.seed);
 }
 
@@ -165,7 +165,7 @@ void Lightcuts::gather(const Receivers& receivers, uint32_t onlyPixel, std::span
   gatherInParallel(points, kGrain, context, [&](size_t begin, size_t end, GatherTally* tally) {
     GatherTally partsTally;
     PointGather gather(*this, receivers, tally);
-    ChosenGather partGather(tracer_, receivers, order, lights_, spheres_, settings_.gather, parts);
+    ChosenGather partGather(tracer_, receivers, order, lights_, prepared_, settings_.gather, parts);
     for (size_t i = begin; i < end && !context.cancelled(); ++i) {
       if (!holdsPixel(receivers, i, i + 1, onlyPixel)) continue;
       const uint64_t before = tally->rays;

@@ -43,7 +43,7 @@ class Lightcuts : public PreparedGather {
   const Tracer& tracer_;
   const VirtualLights& lights_;
   const LightcutsSettings settings_;
-  std::vector<PreparedSphere> spheres_;
+  PreparedLights prepared_;
   LightForest forest_;
   Representatives representatives_;
 };

@@ -148,7 +148,7 @@ class MultidimensionalLightcuts::PixelGather {
     for (size_t i = 0; i < pairs.size(); ++i)
       indices[i] = cuts_.representatives_.light(pairs[i]->tree, pairs[i]->lights);
     prepareChosen(cuts_.lights_, cuts_.tracer_.scene(), lightClass, {indices, pairs.size()},
-                  &block_, cuts_.spheres_);
+                  &block_, cuts_.prepared_);
     allowPairs(tile_, block_, cuts_.lights_, cuts_.settings_.gather, &pairs_);
     const size_t strips = tile_.strips.size();
     for (size_t i = 0; i < pairs.size(); ++i) {
@@ -198,9 +198,9 @@ MultidimensionalLightcuts::MultidimensionalLightcuts(const Tracer& tracer,
     : tracer_(tracer),
       lights_(lights),
       settings_(settings),
-      spheres_(prepareSpheres(lights, tracer.scene())) {
+      prepared_(prepareLights(lights, tracer.scene())) {
   const StageTimer timer(context, "trees");
-  forest_ = plantLights(lights, settings.gather, 1, tracer.scene(), tracer.bounds(), spheres_);
+  forest_ = plantLights(lights, settings.gather, 1, tracer.scene(), tracer.bounds(), prepared_);
   representatives_ = Representatives(forest_, settings.seed);
 }
 
@@ -230,7 +230,7 @@ void MultidimensionalLightcuts::gather(const Receivers& receivers, uint32_t only
       groups.begins.size() - 1, kGrain, context, [&](size_t begin, size_t end, GatherTally* tally) {
         GatherTally partsTally;
         PixelGather gather(*this, groups.receivers, tally);
-        ChosenGather partGather(tracer_, groups.receivers, same, lights_, spheres_,
+        ChosenGather partGather(tracer_, groups.receivers, same, lights_, prepared_,
                                 settings_.gather, ordered ? &*ordered : nullptr);
         for (size_t g = begin; g < end && !context.cancelled(); ++g) {
           const size_t first = groups.begins[g], last = groups.begins[g + 1];

@@ -49,7 +49,7 @@ class MultidimensionalLightcuts : public PreparedGather {
   const Tracer& tracer_;
   const VirtualLights& lights_;
   const MultidimensionalSettings settings_;
-  std::vector<PreparedSphere> spheres_;
+  PreparedLights prepared_;
   LightForest forest_;
   Representatives representatives_;
 };

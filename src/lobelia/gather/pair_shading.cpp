@@ -127,7 +127,7 @@ void PairShading::chooseEnds(const LightForest::Tree& lights, std::span<Traced> 
   }
   if (count == 0) return;
   prepareChosen(scene_.lights, scene_.tracer.scene(), lights.lightClass, {index, count}, &ends_,
-                scene_.spheres);
+                scene_.prepared);
   for (size_t c = 0; c < count; ++c) {
     const size_t s = receiver[c] / kStrip;
     const int lane = static_cast<int>(receiver[c] % kStrip);
@@ -171,7 +171,7 @@ void PairShading::shadeAll(const LightForest::Tree& lights, std::span<const Trac
   uint32_t nodes[kBlockLights];
   size_t count = 0, first = 0;
   const auto flush = [&](size_t end) {
-    prepareNodes(scene_.lights, scene_.tracer.scene(), lights, {nodes, count}, scene_.spheres,
+    prepareNodes(scene_.lights, scene_.tracer.scene(), lights, {nodes, count}, scene_.prepared,
                  &block_);
     shadeBlock(pairs.subspan(first, end - first), {nodes, count});
     count = 0;

@@ -26,7 +26,7 @@ enum class Share : uint8_t { visibility, radiance };
 struct PairScene {
   const Tracer& tracer;
   const VirtualLights& lights;
-  const std::vector<PreparedSphere>& spheres;  // prepareSpheres()
+  const PreparedLights& prepared;  // prepareLights()
   Share share = Share::visibility;
   float clamp = 0;
   uint64_t seed = 0;

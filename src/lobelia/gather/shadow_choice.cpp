@@ -58,7 +58,7 @@ bool ShadowChoice::keepChosen(const float* factors) {
 
 void ShadowChoice::prepareBlock(size_t first, size_t end) {
   prepare(scene_.lights, scene_.tracer.scene(), LightClass::gaussian, first,
-          std::min(kBlockLights, end - first), &block_);
+          std::min(kBlockLights, end - first), &block_, scene_.prepared);
   allowPairs(tile_, block_, scene_.lights, scene_.settings, &pairs_);
 }
 

@@ -14,6 +14,7 @@ namespace lobelia::gather {
 struct ShadowScene {
   const Tracer& tracer;
   const VirtualLights& lights;
+  const PreparedLights& prepared;  // prepareLights()
   const GatherSettings& settings;
 };
 

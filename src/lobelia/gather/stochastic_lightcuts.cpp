@@ -80,9 +80,9 @@ StochasticLightcuts::StochasticLightcuts(const Tracer& tracer, const VirtualLigh
     : tracer_(tracer),
       lights_(lights),
       settings_(settings),
-      spheres_(prepareSpheres(lights, tracer.scene())) {
+      prepared_(prepareLights(lights, tracer.scene())) {
   const StageTimer timer(context, "trees");
-  forest_ = plantLights(lights, settings.gather, 1, tracer.scene(), tracer.bounds(), spheres_);
+  forest_ = plantLights(lights, settings.gather, 1, tracer.scene(), tracer.bounds(), prepared_);
   for (const LightForest::Tree& tree : forest_.trees) lightCount_ += tree.lights.size();
 }
 
@@ -98,7 +98,7 @@ void StochasticLightcuts::gather(const Receivers& receivers, uint32_t onlyPixel,
   constexpr size_t kGrain = 32;
   gatherInParallel(points, kGrain, context, [&](size_t begin, size_t end, GatherTally* tally) {
     PointCut cut(*this);
-    ChosenGather gather(tracer_, receivers, order, lights_, spheres_, settings_.gather, parts);
+    ChosenGather gather(tracer_, receivers, order, lights_, prepared_, settings_.gather, parts);
     for (size_t i = begin; i < end && !context.cancelled(); ++i) {
       if (!holdsPixel(receivers, i, i + 1, onlyPixel)) continue;
       const int64_t start = nanosecondsNow();

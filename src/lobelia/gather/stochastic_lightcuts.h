@@ -43,7 +43,7 @@ class StochasticLightcuts : public PreparedGather {
   const Tracer& tracer_;
   const VirtualLights& lights_;
   const StochasticSettings settings_;
-  std::vector<PreparedSphere> spheres_;
+  PreparedLights prepared_;
   LightForest forest_;
   size_t lightCount_ = 0;
 };

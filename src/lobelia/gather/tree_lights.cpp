@@ -62,9 +62,9 @@ void widen(const GaussianLight& light, float spread, TreeLight* out) {
 std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
                                                const LightNumbers& numbers, const Scene& scene,
                                                const Bounds3f& bounds,
-                                               const std::vector<PreparedSphere>& spheres) {
+                                               const PreparedLights& prepared) {
   const auto sphereOf = [&](size_t index, PreparedSphere* own) -> const PreparedSphere& {
-    if (!spheres.empty()) return spheres[index];
+    if (!prepared.spheres.empty()) return prepared.spheres[index];
     prepareSphere(scene, lights.spherical[index], lights.specularLimit, own);
     return *own;
   };

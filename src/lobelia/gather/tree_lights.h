@@ -10,8 +10,8 @@
 namespace lobelia::gather {
 
 // Lights that are mostly diffuse, those that are mostly glossy, and directional ones, which stand
-// far outside of the scene: a node of several kinds would be told very wrongly. spheres:
-// prepareSpheres(), which may be empty.
+// far outside of the scene: a node of several kinds would be told very wrongly. prepared:
+// prepareLights(), which may be empty.
 inline constexpr size_t kLightTrees = 3, kDirectionalTree = 2;
 struct TreeLights {
   std::vector<trees::TreeLight> lights;
@@ -20,6 +20,6 @@ struct TreeLights {
 std::array<TreeLights, kLightTrees> treeLights(const VirtualLights& lights,
                                                const LightNumbers& numbers, const Scene& scene,
                                                const Bounds3f& bounds,
-                                               const std::vector<PreparedSphere>& spheres);
+                                               const PreparedLights& prepared);
 
 }  // namespace lobelia::gather

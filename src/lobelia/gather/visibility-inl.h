@@ -19,6 +19,7 @@
 #include <iterator>
 
 #include "lobelia/base/random.h"
+#include "lobelia/gather/depth_lookup-inl.h"
 #include "lobelia/gather/facing-inl.h"
 #include "lobelia/gather/kernels.h"
 #include "lobelia/trace/tracer.h"
@@ -202,6 +203,11 @@ class VisiblePairs {
       const Mf mask = lightFaces<kClass>(light, d) & receiverFaces(strip, lane, d, light.extent) &
                       beyondNear<kClass>(strip, lane, d) & maskFromBits(candidates >> lane);
       if (!any(mask)) continue;
+      if (kClusters && block_.depthMaps != nullptr) {
+        const Mf lit = litByMaps(l, strip, lane, mask);
+        pairs_.at(l, s) |= static_cast<uint16_t>(maskBits(lit) << lane);
+        continue;
+      }
       if (pairs_.traced != nullptr) {
         (*pairs_.traced)[l * pairs_.strips + s] |= static_cast<uint16_t>(maskBits(mask) << lane);
       }
@@ -216,6 +222,24 @@ class VisiblePairs {
       const V3<Vf> origin = choose(front, load(strip.front, lane), load(strip.back, lane));
       use(lane, mask, origin, kInfinite ? end : end - origin);
     }
+  }
+
+  // Of the lanes of `mask`, those that the light's shadow maps say are lit: the map of its first
+  // place above their horizon, as rays have it (aboveHorizon()).
+  HWY_INLINE Mf litByMaps(size_t l, const g::PointStrip& strip, size_t lane, Mf mask) const {
+    const g::DepthMaps& maps = *block_.depthMaps;
+    const V3<Vf> p = load(strip.p, lane), ng = load(strip.ng, lane);
+    Mf asked = mask, lit = Vf(0.f) > Vf(0.f);
+    for (int i = 0; i < GaussianLight::kPlaces && any(asked); ++i) {
+      const V3<Vf> end = broadcast(block_.gaussians[l].ends[i]);
+      const Mf above = asked & receiverFaces(strip, lane, end - p, 0);
+      if (!any(above)) continue;
+      lit = lit | (above & depthMapLit(maps.of(block_.index[l], i), maps.texels(i), end, p, ng));
+      asked = asked & !above;
+    }
+    if (!any(asked)) return lit;
+    const V3<Vf> end = broadcast(block_.lights[l].end);
+    return lit | (asked & depthMapLit(maps.of(block_.index[l], 0), maps.texels(0), end, p, ng));
   }
 
   static constexpr bool kClusters = kClass == g::LightClass::gaussian;
