@@ -303,6 +303,31 @@ TEST(CommandLine, SunsAndPhotometricLampsAgreeAmongMethods) {
   }
 }
 
+TEST(CommandLine, DesignsChangeTheScene) {
+  const TemporaryFolder folder;
+  const std::string design = folder / "design.xml", out = folder / "a.exr";
+  const auto green = [&](const std::string& options) {
+    const ProgramResult r = runProgram(kSmall + (options + " -o " + out));
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    const Film film = io::readFilm(out);
+    double sum = 0, all = 0;
+    const std::vector<float>& values = film.layers.at("").values;
+    for (size_t i = 0; i < values.size(); ++i)
+      (i % 3 == 1 ? sum : all) += static_cast<double>(values[i]);
+    return sum / (sum + all);
+  };
+  test::writeText(design,
+                  "<scene version=\"3.0.0\"><bsdf type=\"diffuse\" id=\"white_wall\">"
+                  "<rgb name=\"reflectance\" value=\"0.1 0.9 0.1\"/></bsdf></scene>");
+  const double before = green("--spp 4 --lights path");
+  EXPECT_GT(green("--spp 4 --lights path --design " + design), before + 0.2);
+  test::writeText(design,
+                  "<scene version=\"3.0.0\">\n<bsdf type=\"diffuse\" id=\"white_wal\"/></scene>");
+  expectFailure("info cornell --design " + design, 3, "design.xml:2");
+  expectFailure("info cornell --design " + design, 3, "did you mean 'white_wall'");
+  expectFailure("info cornell --design " + (folder / "none.xml"), 3, "none.xml");
+}
+
 TEST(CommandLine, SkyLightsBuiltInScenes) {
   const TemporaryFolder folder;
   const std::string out = folder / "a.exr";

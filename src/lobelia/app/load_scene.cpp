@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "lobelia/builtin/builtin_scenes.h"
+#include "lobelia/io/design.h"
 #include "lobelia/io/scene_io.h"
 
 namespace lobelia::app {
@@ -102,6 +103,7 @@ Scene loadScene(const SceneOptions& options, Context& context) {
     if (options.detail != 1) throw UsageError("--detail: only built-in scenes have it");
     scene = io::readScene(options.scene, settings, context);
   }
+  if (!options.design.empty()) io::applyDesign(options.design, settings, scene, context);
   if (context.cancelled()) throw Cancelled{};  // and no judgement of half a scene
   for (Finding& finding : validate(scene)) {
     if (finding.where.file.empty()) finding.where.file = scene.file;

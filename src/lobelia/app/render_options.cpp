@@ -34,6 +34,10 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
                "TURBIDITY,X,Y,Z: sun and sky light the scene; the sun in direction X,Y,Z of the "
                "scene, turbidity 2 (very clear) to 10")
       ->type_name("T,X,Y,Z");
+  c.add_option("--design", o.design,
+               "Design: a file of materials, emitters and cameras that take the place of the "
+               "scene's (docs/manual.md)")
+      ->type_name("FILE");
   c.add_option("--time", o.time, "Seconds at which an animated scene is taken")
       ->type_name("SECONDS")
       ->check(finiteNumber(-HUGE_VAL))

@@ -17,7 +17,7 @@ namespace lobelia::app {
 struct SceneOptions {
   std::string scene;                     // file, or the name of a built-in scene
   std::vector<std::string> definitions;  // -D name=value
-  std::string environment, sky, variant;
+  std::string environment, sky, variant, design;
   float time = 0;
   bool strict = false;
   float detail = 1;    // built-in scenes

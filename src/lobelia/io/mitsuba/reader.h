@@ -24,6 +24,7 @@ class Reader {
       : document_(document), scene_(scene), time_(time), findings_(findings), context_(context) {}
 
   void read();
+  void change();  // design.cpp: a scene that has been read
 
  private:
   Object open(const Element& element) const { return {element, document_, findings_}; }
@@ -72,6 +73,11 @@ class Reader {
   void conductor(Object& object, Material* out);
   void roughness(Object& object, Material* out);
 
+  // design.cpp
+  void changeMaterials(const std::vector<const Element*>& elements);
+  void changeEmitter(const Element& element);
+  void changeSensor(const Element& element);
+
   // two_sided.cpp
   void assumeTwoSided();
   MaterialHandle twoSided(MaterialHandle handle);
@@ -114,6 +120,7 @@ class Reader {
   const Document& document_;
   Scene& scene_;
   const float time_;
+  Camera film_;  // whose film is that of sensors without one
   Findings& findings_;
   Context& context_;
   std::map<const Element*, TextureHandle> textures_;

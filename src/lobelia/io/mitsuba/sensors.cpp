@@ -81,6 +81,11 @@ void Reader::sensor(const Element& element) {
   const std::string& type = object.type();
   if (!contains(sensorTypes(), type)) unknownType(object, sensorTypes());
   Camera camera;
+  camera.width = film_.width, camera.height = film_.height;
+  camera.cropX0 = film_.cropX0, camera.cropY0 = film_.cropY0;
+  camera.cropX1 = film_.cropX1, camera.cropY1 = film_.cropY1;
+  camera.filter = film_.filter, camera.filterRadius = film_.filterRadius;
+  camera.spp = film_.spp;
   camera.name = object.id();
   const std::vector<const Element*> films = object.nested("film");
   if (films.size() > 1) throw InputError(films[1]->where, "a sensor can have only one film");
