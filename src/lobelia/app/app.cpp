@@ -20,6 +20,7 @@
 #include "lobelia/app/render.h"
 #include "lobelia/app/signals.h"
 #include "lobelia/app/unused_options.h"
+#include "lobelia/app/view.h"
 #include "lobelia/bsdf/captured_fit.h"
 #include "lobelia/builtin/builtin_scenes.h"
 #include "lobelia/io/scene_io.h"
@@ -45,11 +46,12 @@ struct CommandLine {
   ConvertOptions scene, convert;
   BenchOptions bench;
   RelightOptions relight;
+  ViewOptions view;
   ShowOptions show;
   CompletionOptions completion;
   DocsOptions docs;
   CLI::App *renderCommand, *compareCommand, *infoCommand, *methodsCommand, *sceneCommand,
-      *convertCommand, *benchCommand, *fitCommand, *relightCommand, *showCommand,
+      *convertCommand, *benchCommand, *fitCommand, *viewCommand, *relightCommand, *showCommand,
       *completionCommand, *docsCommand;
 
   CommandLine() {
@@ -105,6 +107,9 @@ struct CommandLine {
     convertCommand->add_option("-o,--output", convert.folder, "Folder to write")
         ->type_name("FOLDER")
         ->required();
+    viewCommand =
+        app.add_subcommand("view", "Frames of a scene under changing light, from its data");
+    addViewOptions(*viewCommand, view);
     relightCommand =
         app.add_subcommand("relight", "Mix a picture's light groups anew, without rendering");
     addRelightOptions(*relightCommand, relight);
@@ -159,6 +164,7 @@ struct CommandLine {
       return app::convert(scene, global);
     }
     if (*convertCommand) return app::convert(convert, global);
+    if (*viewCommand) return app::view(view, global, text);
     if (*relightCommand) return app::relight(relight);
     if (*showCommand) return app::show(show);
     if (*benchCommand) return app::bench(bench, global, text);
