@@ -17,6 +17,7 @@
 #include "lobelia/app/layer_commands.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/option_checks.h"
+#include "lobelia/app/precompute_command.h"
 #include "lobelia/app/render.h"
 #include "lobelia/app/signals.h"
 #include "lobelia/app/unused_options.h"
@@ -43,14 +44,15 @@ struct CommandLine {
   FitOptions fit;
   InfoOptions info;
   ConvertOptions scene, convert;
+  PrecomputeOptions precompute;
   BenchOptions bench;
   RelightOptions relight;
   ShowOptions show;
   CompletionOptions completion;
   DocsOptions docs;
   CLI::App *renderCommand, *compareCommand, *infoCommand, *methodsCommand, *sceneCommand,
-      *convertCommand, *benchCommand, *fitCommand, *relightCommand, *showCommand,
-      *completionCommand, *docsCommand;
+      *convertCommand, *precomputeCommand, *benchCommand, *fitCommand, *relightCommand,
+      *showCommand, *completionCommand, *docsCommand;
 
   CommandLine() {
     app.set_version_flag("--version", std::string("lobelia ") + kVersion);
@@ -105,6 +107,8 @@ struct CommandLine {
     convertCommand->add_option("-o,--output", convert.folder, "Folder to write")
         ->type_name("FOLDER")
         ->required();
+    precomputeCommand = app.add_subcommand("precompute", "Compute what view needs of a scene");
+    addPrecomputeOptions(*precomputeCommand, precompute);
     relightCommand =
         app.add_subcommand("relight", "Mix a picture's light groups anew, without rendering");
     addRelightOptions(*relightCommand, relight);
@@ -159,6 +163,7 @@ struct CommandLine {
       return app::convert(scene, global);
     }
     if (*convertCommand) return app::convert(convert, global);
+    if (*precomputeCommand) return app::precompute(precompute, global);
     if (*relightCommand) return app::relight(relight);
     if (*showCommand) return app::show(show);
     if (*benchCommand) return app::bench(bench, global, text);

@@ -49,7 +49,7 @@ SampleTree makeSampleTree(const LightSamples& samples) {
   tree.coneCosine.resize(tree.meanP.size());
   parallelFor(tree.meanP.size(), 256, [&](size_t i) {
     if (i == 0) return;
-    const int depth = std::bit_width(i) - 1;
+    const int depth = static_cast<int>(std::bit_width(i)) - 1;
     const int level = tree.levels - depth;
     const size_t begin = (i - (size_t{1} << depth)) << level, end = begin + (size_t{1} << level);
     tree.coneCosine[i] =
