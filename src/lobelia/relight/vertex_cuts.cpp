@@ -66,6 +66,7 @@ class Vertices {
         blockOf_(order.size()),
         placeIn_(order.size()),
         reached_(order.size(), 0),
+        sampleNeighbours_(data.samples),
         blocks_(begin_.size() - 1),
         reports_(blocks_.size()),
         wrong_(blocks_.size()) {
@@ -93,7 +94,7 @@ class Vertices {
     block.vertices = breadthFirst(order_.subspan(begin_[b], begin_[b + 1] - begin_[b]), neighbours_,
                                   blockOf_, static_cast<uint32_t>(b), &reached_);
     for (uint32_t i = 0; i < block.vertices.size(); ++i) placeIn_[block.vertices[i]] = i;
-    VertexTracer rays(tracer_, data_.samples);
+    VertexTracer rays(tracer_, data_.samples, &sampleNeighbours_);
     CutSelector selector(settings_.sigma, settings_.mostNodes);
     std::vector<LeafBits> bits(block.vertices.size(), LeafBits(data_.tree.levels));
     std::vector<const LeafBits*> nearby;
@@ -188,6 +189,7 @@ class Vertices {
   const std::vector<size_t> begin_;
   std::vector<uint32_t> blockOf_, placeIn_;  // by vertex
   std::vector<uint8_t> reached_;
+  const SampleNeighbours sampleNeighbours_;
   std::vector<Block> blocks_;
   std::vector<CutReport> reports_;
   std::vector<Wrong> wrong_;

@@ -54,8 +54,10 @@ Agreement agreement(std::span<const LeafBits* const> nearby, const LeafBits& bit
 
 }  // namespace
 
-VertexTracer::VertexTracer(const Tracer& tracer, const LightSamples& samples)
+VertexTracer::VertexTracer(const Tracer& tracer, const LightSamples& samples,
+                           const SampleNeighbours* neighbours)
     : tracer_(tracer),
+      neighbours_(neighbours),
       directions_(samples.kind == LightSamples::Kind::environment),
       count_(samples.count()) {
   const size_t padded = (count_ + 63) / 64 * 64;
@@ -65,7 +67,7 @@ VertexTracer::VertexTracer(const Tracer& tracer, const LightSamples& samples)
     if (directions_) continue;
     nx_[i] = samples.n[i].x, ny_[i] = samples.n[i].y, nz_[i] = samples.n[i].z;
   }
-  faceOf_.resize(padded);
+  faceOf_.resize(padded), traced_.resize(padded / 64);
 }
 
 // The samples of a word in front of a face (side 1) or behind it (-1) that send light there.
@@ -90,6 +92,7 @@ void VertexTracer::assign(uint64_t leaves, uint32_t word, uint8_t face) {
 }
 
 void VertexTracer::prepare(std::span<const FacePlace> faces, LeafBits* bits) {
+  std::fill(traced_.begin(), traced_.end(), 0);
   faces_ = faces.first(std::min(faces.size(), kMostFaces));
   const auto both =
       std::find_if(faces_.begin(), faces_.end(), [](const FacePlace& f) { return f.bothSides; });
@@ -119,6 +122,7 @@ void VertexTracer::push(uint32_t leaf, LeafBits* bits) {
     packet_.set(lanes_, o, p);
   }
   leafOf_[lanes_] = leaf;
+  traced_[leaf / 64] |= bit(leaf);
   if (++lanes_ == ShadowPacket::kSize) flush(bits);
 }
 
@@ -187,6 +191,33 @@ bool VertexTracer::confirmed(const Node& node, uint64_t key, const LeafBits& bit
   return good;
 }
 
+// Traces the leaves next to a traced one that are supposed to be what it is not.
+void VertexTracer::pushUnlike(uint32_t leaf, LeafBits* bits) {
+  const uint64_t visible = bits->visible[leaf / 64] >> (leaf % 64) & 1;
+  for (const uint16_t other : neighbours_->at(leaf)) {
+    const uint32_t w = other / 64, shift = other % 64;
+    if ((bits->matters[w] & ~traced_[w]) >> shift & 1 && (bits->visible[w] >> shift & 1) != visible)
+      fresh_.push_back(other), traced_[w] |= bit(other);
+  }
+}
+
+void VertexTracer::followEdges(LeafBits* bits) {
+  next_.clear();
+  for (uint32_t w = 0; w < bits->wordCount(); ++w)
+    for (uint64_t left = traced_[w]; left != 0; left &= left - 1)
+      next_.push_back(w * 64 + static_cast<uint32_t>(std::countr_zero(left)));
+  while (!next_.empty()) {
+    fresh_.clear();
+    for (const uint32_t leaf : next_) pushUnlike(leaf, bits);
+    for (const uint32_t leaf : fresh_) {
+      bits->visible[leaf / 64] &= ~bit(leaf);
+      push(leaf, bits);
+    }
+    flush(bits);
+    next_.swap(fresh_);
+  }
+}
+
 void VertexTracer::traceAdaptively(std::span<const LeafBits* const> nearby, uint64_t key,
                                    LeafBits* bits) {
   const int level = std::min(kMostLevel, bits->levels);
@@ -219,6 +250,7 @@ void VertexTracer::traceAdaptively(std::span<const LeafBits* const> nearby, uint
     }
   }
   flush(bits);
+  followEdges(bits);
 }
 
 }  // namespace lobelia::relight

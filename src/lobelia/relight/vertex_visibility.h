@@ -7,13 +7,16 @@
 //
 // Where vertices nearby are done already and agree on all leaves of a node of the tree, a few rays
 // probe the node; only where these disagree are its children looked at, and at last all leaves
-// traced. (The paper traces all.)
+// traced. Edges of shadows that have moved on into such a node are then followed: wherever a traced
+// leaf is not what is supposed of one next to it, that one is traced, too. What is missed are
+// islands that no probe hits. (The paper traces all.)
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "lobelia/relight/sample_neighbours.h"
 #include "lobelia/relight/vertex_faces.h"
 #include "lobelia/relight/visibility_cut.h"
 #include "lobelia/trace/tracer.h"
@@ -23,8 +26,10 @@ namespace lobelia::relight {
 // For one thread; keeps its memory from vertex to vertex.
 class VertexTracer {
  public:
-  // Keeps references. samples: in the order of the tree's leaves.
-  VertexTracer(const Tracer& tracer, const LightSamples& samples);
+  // Keeps references. samples: in the order of the tree's leaves. neighbours: of these; may be null
+  // where traceAdaptively() is not called.
+  VertexTracer(const Tracer& tracer, const LightSamples& samples,
+               const SampleNeighbours* neighbours = nullptr);
 
   // Says which leaves matter and that none is visible yet; the other functions go on from there.
   void prepare(std::span<const FacePlace> faces, LeafBits* bits);
@@ -48,9 +53,12 @@ class VertexTracer {
   void visit(int level, uint32_t place, LeafBits* bits);
   template <class Use>
   void forProbes(const Node& node, uint64_t key, const LeafBits& bits, const Use& use) const;
+  void followEdges(LeafBits* bits);
+  void pushUnlike(uint32_t leaf, LeafBits* bits);
   bool confirmed(const Node& node, uint64_t key, const LeafBits& bits) const;
 
   const Tracer& tracer_;
+  const SampleNeighbours* neighbours_;
   const bool directions_;
   const size_t count_;
   std::vector<float> x_, y_, z_, nx_, ny_, nz_;  // samples, padded to whole words
@@ -62,6 +70,8 @@ class VertexTracer {
   uint64_t rays_ = 0;
   std::span<const LeafBits* const> nearby_;
   std::vector<Node> expected_, failed_;
+  std::vector<uint64_t> traced_;        // leaves, since prepare()
+  std::vector<uint32_t> fresh_, next_;  // traced leaves whose neighbours are to be looked at
 };
 
 }  // namespace lobelia::relight
