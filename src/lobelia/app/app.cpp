@@ -17,6 +17,7 @@
 #include "lobelia/app/layer_commands.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/option_checks.h"
+#include "lobelia/app/precompute_command.h"
 #include "lobelia/app/render.h"
 #include "lobelia/app/signals.h"
 #include "lobelia/app/unused_options.h"
@@ -44,6 +45,7 @@ struct CommandLine {
   FitOptions fit;
   InfoOptions info;
   ConvertOptions scene, convert;
+  PrecomputeOptions precompute;
   BenchOptions bench;
   RelightOptions relight;
   ViewOptions view;
@@ -51,8 +53,8 @@ struct CommandLine {
   CompletionOptions completion;
   DocsOptions docs;
   CLI::App *renderCommand, *compareCommand, *infoCommand, *methodsCommand, *sceneCommand,
-      *convertCommand, *benchCommand, *fitCommand, *viewCommand, *relightCommand, *showCommand,
-      *completionCommand, *docsCommand;
+      *convertCommand, *precomputeCommand, *benchCommand, *fitCommand, *viewCommand,
+      *relightCommand, *showCommand, *completionCommand, *docsCommand;
 
   CommandLine() {
     app.set_version_flag("--version", std::string("lobelia ") + kVersion);
@@ -107,6 +109,8 @@ struct CommandLine {
     convertCommand->add_option("-o,--output", convert.folder, "Folder to write")
         ->type_name("FOLDER")
         ->required();
+    precomputeCommand = app.add_subcommand("precompute", "Compute what view needs of a scene");
+    addPrecomputeOptions(*precomputeCommand, precompute);
     viewCommand =
         app.add_subcommand("view", "Frames of a scene under changing light, from its data");
     addViewOptions(*viewCommand, view);
@@ -164,6 +168,7 @@ struct CommandLine {
       return app::convert(scene, global);
     }
     if (*convertCommand) return app::convert(convert, global);
+    if (*precomputeCommand) return app::precompute(precompute, global);
     if (*viewCommand) return app::view(view, global, text);
     if (*relightCommand) return app::relight(relight);
     if (*showCommand) return app::show(show);

@@ -22,6 +22,7 @@ static_assert(sizeof(CutNode) == 2);  // the value's error is at most 1/510
 // What a vertex's function is where it does not matter is chosen to keep its cut small.
 struct LeafBits {
   std::vector<uint64_t> visible, matters;
+  std::vector<uint64_t> judged;  // where errors are counted, among what matters; empty: all of it
   explicit LeafBits(int levels = 0);
   int levels = 0;
   size_t wordCount() const { return visible.size(); }
@@ -81,6 +82,7 @@ class CutSelector {
   Node node(int level, uint32_t place) const;
   void refineAll(int level, uint32_t place);
   void refineLargest();
+  Count judged(uint32_t begin, uint32_t end) const;
   const double threshold_;
   const size_t mostNodes_;
   const LeafBits* bits_ = nullptr;
