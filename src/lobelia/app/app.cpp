@@ -17,9 +17,11 @@
 #include "lobelia/app/layer_commands.h"
 #include "lobelia/app/methods.h"
 #include "lobelia/app/option_checks.h"
+#include "lobelia/app/precompute_command.h"
 #include "lobelia/app/render.h"
 #include "lobelia/app/signals.h"
 #include "lobelia/app/unused_options.h"
+#include "lobelia/app/view.h"
 #include "lobelia/bsdf/captured_fit.h"
 #include "lobelia/builtin/builtin_scenes.h"
 #include "lobelia/io/scene_io.h"
@@ -43,14 +45,16 @@ struct CommandLine {
   FitOptions fit;
   InfoOptions info;
   ConvertOptions scene, convert;
+  PrecomputeOptions precompute;
   BenchOptions bench;
   RelightOptions relight;
+  ViewOptions view;
   ShowOptions show;
   CompletionOptions completion;
   DocsOptions docs;
   CLI::App *renderCommand, *compareCommand, *infoCommand, *methodsCommand, *sceneCommand,
-      *convertCommand, *benchCommand, *fitCommand, *relightCommand, *showCommand,
-      *completionCommand, *docsCommand;
+      *convertCommand, *precomputeCommand, *benchCommand, *fitCommand, *viewCommand,
+      *relightCommand, *showCommand, *completionCommand, *docsCommand;
 
   CommandLine() {
     app.set_version_flag("--version", std::string("lobelia ") + kVersion);
@@ -105,6 +109,11 @@ struct CommandLine {
     convertCommand->add_option("-o,--output", convert.folder, "Folder to write")
         ->type_name("FOLDER")
         ->required();
+    precomputeCommand = app.add_subcommand("precompute", "Compute what view needs of a scene");
+    addPrecomputeOptions(*precomputeCommand, precompute);
+    viewCommand =
+        app.add_subcommand("view", "Frames of a scene under changing light, from its data");
+    addViewOptions(*viewCommand, view);
     relightCommand =
         app.add_subcommand("relight", "Mix a picture's light groups anew, without rendering");
     addRelightOptions(*relightCommand, relight);
@@ -159,6 +168,8 @@ struct CommandLine {
       return app::convert(scene, global);
     }
     if (*convertCommand) return app::convert(convert, global);
+    if (*precomputeCommand) return app::precompute(precompute, global);
+    if (*viewCommand) return app::view(view, global, text);
     if (*relightCommand) return app::relight(relight);
     if (*showCommand) return app::show(show);
     if (*benchCommand) return app::bench(bench, global, text);

@@ -58,7 +58,8 @@ std::function<Camera(int)> alongKeys(const Camera& camera, int frames) {
 }
 
 // The camera of every frame.
-std::function<Camera(int)> motion(const Scene& scene, const RenderOptions& options) {
+std::function<Camera(int)> motion(const Scene& scene, const RenderOptions& options,
+                                  bool mayStandStill) {
   const std::vector<Camera> cameras = chooseCameras(scene, options);
   if (options.turntable) {
     if (cameras.size() > 1)
@@ -68,6 +69,7 @@ std::function<Camera(int)> motion(const Scene& scene, const RenderOptions& optio
   }
   if (cameras.size() == 1) {
     if (cameras.front().path.empty()) {
+      if (mayStandStill) return [camera = cameras.front()](int) { return camera; };
       throw UsageError(
           fmt::format("--frames: the camera '{}' of this scene does not move; name several for a "
                       "path (--camera A,B,C) or turn about the scene (--turntable)",
@@ -113,9 +115,10 @@ void requireFrames(const RenderOptions& options) {
   for (int number = first; number <= last; ++number) requireOutputs(optionsOf(options, number));
 }
 
-std::vector<Frame> planFrames(const Scene& scene, const RenderOptions& options) {
+std::vector<Frame> planFrames(const Scene& scene, const RenderOptions& options,
+                              bool mayStandStill) {
   if (options.frames == 0) return {{0, chooseCamera(scene, options), options}};
-  const std::function<Camera(int)> cameraOf = motion(scene, options);
+  const std::function<Camera(int)> cameraOf = motion(scene, options, mayStandStill);
   const auto [first, last] = frameRange(options);
   std::vector<Frame> frames;
   for (int number = first; number <= last; ++number) {

@@ -21,7 +21,9 @@ std::string frameFile(const std::string& file, int number);
 // Wrong use that shows without the scene, outputs that cannot be written among it. Throws
 // UsageError.
 void requireFrames(const RenderOptions& options);
-// Throws UsageError when the scene has no such cameras or path.
-std::vector<Frame> planFrames(const Scene& scene, const RenderOptions& options);
+// Throws UsageError when the scene has no such cameras or, unless the camera may stand still, no
+// path.
+std::vector<Frame> planFrames(const Scene& scene, const RenderOptions& options,
+                              bool mayStandStill = false);
 
 }  // namespace lobelia::app

@@ -30,15 +30,6 @@ std::string replayHint(const Film& film, const Frame& frame, const Context& cont
                      (pixel - 1) / width + static_cast<size_t>(film.y0));
 }
 
-void setMetadata(Film& film, const Scene& scene, const RenderOptions& options,
-                 const std::string& commandLine, double seconds) {
-  film.metadata["lobelia:version"] = kVersion;
-  film.metadata["lobelia:command"] = commandLine;
-  film.metadata["lobelia:seed"] = std::to_string(options.seed);
-  film.metadata["lobelia:scene"] = scene.file.empty() ? scene.name : scene.file;
-  film.metadata["lobelia:seconds"] = fmt::format("{:.3f}", seconds);
-}
-
 // Cuts as large as they may be that still miss --error.
 void warnOfMissedErrors(const RenderOptions& options, Context& context) {
   constexpr double kMany = 0.05;  // of the clusters: fewer are creases and edges
@@ -53,6 +44,15 @@ void warnOfMissedErrors(const RenderOptions& options, Context& context) {
 }
 
 }  // namespace
+
+void setMetadata(Film& film, const Scene& scene, const RenderOptions& options,
+                 const std::string& commandLine, double seconds) {
+  film.metadata["lobelia:version"] = kVersion;
+  film.metadata["lobelia:command"] = commandLine;
+  film.metadata["lobelia:seed"] = std::to_string(options.seed);
+  film.metadata["lobelia:scene"] = scene.file.empty() ? scene.name : scene.file;
+  film.metadata["lobelia:seconds"] = fmt::format("{:.3f}", seconds);
+}
 
 PathSettings pathSettings(const Scene& scene, const Camera& camera, const PixelSet& pixels,
                           int maxDepth, const RenderOptions& options) {

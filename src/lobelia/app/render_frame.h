@@ -23,6 +23,9 @@ struct FrameRun {
   std::optional<VirtualLights> lights;  // the first set
 };
 
+// What a picture file says of its making.
+void setMetadata(Film& film, const Scene& scene, const RenderOptions& options,
+                 const std::string& commandLine, double seconds);
 // Of the path and the light tracer.
 PathSettings pathSettings(const Scene& scene, const Camera& camera, const PixelSet& pixels,
                           int maxDepth, const RenderOptions& options);

@@ -64,6 +64,25 @@ void addGlobalOptions(CLI::App& c, GlobalOptions& o) {
   c.add_flag("--verbose", o.verbose, "More messages")->excludes(quiet);
 }
 
+void addPictureOptions(CLI::App& c, RenderOptions& o) {
+  c.add_option("--size", o.size, "WxH in pixels")->type_name("WxH");
+  c.add_option("--crop", o.crop,
+               "X0,Y0,X1,Y1: compute only this window (pixels, x1 and y1 exclusive)")
+      ->type_name("X0,Y0,X1,Y1");
+  c.add_option("--camera", o.camera,
+               "Camera by name or index (from 0); with --frames several, A,B,C: a smooth path "
+               "through them")
+      ->type_name("NAME");
+  c.add_option("--frames", o.frames,
+               "Render N frames along the camera's path; files are numbered: %04d in a name, or "
+               ".0000 before the extension")
+      ->type_name("N")
+      ->check(integerRange(1, 1'000'000));
+  c.add_option("--frame", o.frame, "Only this of the frames (from 0), or A-B")->type_name("K|A-B");
+  c.add_flag("--turntable", o.turntable,
+             "The frames go once around what the camera looks at, about the vertical axis");
+}
+
 void addRenderOptions(CLI::App& c, RenderOptions& o) {
   addSceneOptions(c, o.scene);
   c.add_option("-o,--output", o.outputs, "Picture to write: .exr (linear), .png (tone-mapped)")
@@ -81,10 +100,7 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "Samples per pixel; default: 16 with virtual lights, else the scene's or 64")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 24));
-  c.add_option("--size", o.size, "WxH in pixels")->type_name("WxH");
-  c.add_option("--crop", o.crop,
-               "X0,Y0,X1,Y1: compute only this window (pixels, x1 and y1 exclusive)")
-      ->type_name("X0,Y0,X1,Y1");
+  addPictureOptions(c, o);
   c.add_option("--pixels", o.pixels, "Compute only N pixels, spread over the image by the seed")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 32));
@@ -93,18 +109,6 @@ void addRenderOptions(CLI::App& c, RenderOptions& o) {
                "pixels; default: --seed")
       ->type_name("N")
       ->check(seedNumber());
-  c.add_option("--camera", o.camera,
-               "Camera by name or index (from 0); with --frames several, A,B,C: a smooth path "
-               "through them")
-      ->type_name("NAME");
-  c.add_option("--frames", o.frames,
-               "Render N frames along the camera's path; files are numbered: %04d in a name, or "
-               ".0000 before the extension")
-      ->type_name("N")
-      ->check(integerRange(1, 1'000'000));
-  c.add_option("--frame", o.frame, "Only this of the frames (from 0), or A-B")->type_name("K|A-B");
-  c.add_flag("--turntable", o.turntable,
-             "The frames go once around what the camera looks at, about the vertical axis");
   c.add_option("--display", o.display, "Show the picture in tev while it is made")
       ->type_name("HOST:PORT");
   c.add_option("--max-depth", o.maxDepth,

@@ -92,6 +92,8 @@ struct GlobalOptions {
 };
 
 void addSceneOptions(CLI::App& command, SceneOptions& options);
+// Size, crop, camera and frames.
+void addPictureOptions(CLI::App& command, RenderOptions& options);
 void addRenderOptions(CLI::App& command, RenderOptions& options);
 void addGlobalOptions(CLI::App& command, GlobalOptions& options);
 // Makes an empty value ('--crop ""', perhaps of a script's unset variable) an error for every

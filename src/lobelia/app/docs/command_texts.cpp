@@ -64,6 +64,31 @@ const std::map<std::string, CommandTexts>& texts() {
        {"Writes any readable scene as Mitsuba XML with PLY meshes and image files beside it.",
         {{"FOLDER/scene.xml", "The scene"}},
         {{"lobelia convert scene.glb -o scene", "Convert glTF to Mitsuba XML"}}}},
+      {"precompute",
+       {"Computes what is visible from the vertices of a scene and writes it to a file, from which "
+        "pictures under other light, with other materials and from other views come at once.\n\n"
+        "The file belongs to the scene's shapes: materials, lights and cameras may change, "
+        "geometry may not.",
+        {{"DATA", "Visibility cuts of all vertices, with the light samples and the tree over them"},
+         {"*.json", "Statistics"}},
+        {{"lobelia precompute sculpture.xml --method cuts -o sculpture.cuts",
+          "For light from an environment"},
+         {"lobelia precompute room --method cuts --light surfaces -o room.cuts",
+          "For one bounce of light of lamps in a room"}}}},
+      {"view",
+       {"Draws frames of a scene whose visibility was precomputed: light from infinity "
+        "(environments, suns, directional emitters) that arrives straight at the first surface. "
+        "Light, materials and camera may be other ones than before; the geometry may not.\n\n"
+        "Lights at finite places are seen but light nothing; of materials that transmit light "
+        "only reflections are shown.",
+        {{"DATA", "Visibility cuts of the scene's vertices"},
+         {"*.exr", "Scene-linear RGB (sRGB primaries, 32-bit float), and metadata"},
+         {"*.png", "Tone-mapped by Reinhard's global operator, sRGB"}},
+        {{"lobelia view teapot --sky 3,1,0.5,1 --data teapot.cuts --headless -o teapot.png",
+          "One picture under sun and sky"},
+         {"lobelia view scene.xml --data scene.cuts --headless --frames 36 --rotate-step 10 -o "
+          "turn%02d.exr",
+          "The environment turns once around the scene"}}}},
       {"relight",
        {"Multiplies the light groups of a picture rendered with --aov groups by factors and "
         "colours "

@@ -1,0 +1,25 @@
+// `lobelia view`: frames of a scene under light from infinity, by precomputed visibility cuts
+// (relight/frame.h). Without a window so far.
+#pragma once
+
+#include <string>
+
+#include "lobelia/app/render_options.h"
+#include "lobelia/base/error.h"
+
+namespace lobelia::app {
+
+struct ViewOptions {
+  RenderOptions render;  // of which addViewOptions() sets what a frame needs
+  std::string data;      // `lobelia precompute`
+  bool headless = false;
+  size_t lightCut = 512;    // nodes
+  double rotate = 0;        // of the environment, degrees
+  double rotateStep = 0;    // more with every frame
+  bool plainLobes = false;  // all lobes by the light cut alone, as the paper has it
+};
+void addViewOptions(CLI::App& command, ViewOptions& options);
+ExitCode view(const ViewOptions& options, const GlobalOptions& global,
+              const std::string& commandLine);
+
+}  // namespace lobelia::app

@@ -1,0 +1,71 @@
+#include "lobelia/app/view_statistics.h"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "lobelia/base/file.h"
+#include "lobelia/relight/light_cut.h"
+#include "lobelia/version.h"
+
+namespace lobelia::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+
+double frameSeconds(const Statistics& s) {
+  return s.seconds("light") + s.seconds("buffer") + s.seconds("merge") + s.seconds("shade");
+}
+
+Json countsJson(const Statistics& s) {
+  const auto count = [&](const char* name) { return static_cast<double>(s.count(name)); };
+  const double frames = count("frames"), pixels = count("object_pixels");
+  return {{"frames", s.count("frames")},
+          {"pixels", s.count("pixels")},
+          {"object_pixels", s.count("object_pixels")},
+          {"vertices_per_frame", ratio(count("vertices_merged"), frames)},
+          {"merged_nodes_per_vertex", ratio(count("merged_nodes"), count("vertices_merged"))},
+          {"evaluations_per_pixel", ratio(count("evaluations"), pixels)},
+          {"fine_nodes_per_pixel",
+           ratio(count("fine_chunks") * static_cast<double>(relight::kChunk), pixels)},
+          {"nonfinite", s.count("nonfinite")}};
+}
+
+}  // namespace
+
+double framesPerSecond(const Statistics& statistics) {
+  return ratio(static_cast<double>(statistics.count("frames")), frameSeconds(statistics));
+}
+
+void writeViewStatistics(const ViewOptions& options, const Scene& scene,
+                         const relight::VisibilityData& data, const Context& context) {
+  const Statistics& s = context.statistics;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const double vertices = static_cast<double>(data.cuts.count());
+  Json json;
+  json["version"] = kVersion;
+  json["scene"] = {{"triangles", triangleCount(scene)},
+                   {"materials", scene.materials.size()},
+                   {"emitters", scene.emitters.size()}};
+  json["lights"] = {{"model", "environment"}, {"samples", data.samples.count()}};
+  json["gather"] = {
+      {"strategy", "cuts"},
+      {"light_cut", options.lightCut},
+      {"vertices", data.cuts.count()},
+      {"visibility_cut", ratio(static_cast<double>(data.cuts.nodes().size()), vertices)}};
+  for (const char* stage :
+       {"load", "accel", "data", "prepare", "light", "buffer", "merge", "shade", "total"})
+    json["seconds"][stage] = s.seconds(stage);
+  json["counts"] = countsJson(s);
+  json["frames_per_second"] = framesPerSecond(s);
+  json["memory"] = {{"peak_bytes", static_cast<uint64_t>(usage.ru_maxrss) * 1024},
+                    {"embree_bytes", s.value("embree_bytes")}};
+  const std::string text = json.dump(2) + "\n";
+  writeFileAtomically(options.render.stats, std::as_bytes(std::span<const char>(text)));
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,18 @@
+// `lobelia view --stats`: what its frames cost, in the form of a render's (docs/manual.md).
+#pragma once
+
+#include <string>
+
+#include "lobelia/app/view.h"
+#include "lobelia/relight/visibility_data.h"
+#include "lobelia/scene/scene.h"
+
+namespace lobelia::app {
+
+// Frames over the seconds of their making: loading and writing files is left out.
+double framesPerSecond(const Statistics& statistics);
+// Throws RuntimeError when the file cannot be written.
+void writeViewStatistics(const ViewOptions& options, const Scene& scene,
+                         const relight::VisibilityData& data, const Context& context);
+
+}  // namespace lobelia::app

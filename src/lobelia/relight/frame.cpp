@@ -1,0 +1,116 @@
+#include "lobelia/relight/frame.h"
+
+#include <mutex>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/relight/frame_tile.h"
+
+namespace lobelia::relight {
+namespace {
+
+// Environments are turned about what is their vertical: +y of their own axes (scene/emitter.h).
+Vec3d verticalOf(const Scene& scene) {
+  for (const Emitter& emitter : scene.emitters) {
+    if (emitter.type != EmitterType::environment) continue;
+    const Vec3f up = emitter.toWorld.vector({0, 1, 0});
+    return {static_cast<double>(up.x), static_cast<double>(up.y), static_cast<double>(up.z)};
+  }
+  return {0, 1, 0};
+}
+
+const VisibilityData& requireEnvironment(const VisibilityData& data) {
+  if (data.samples.kind == LightSamples::Kind::environment) return data;
+  throw UsageError(
+      "the data are of light from surfaces; make data of an environment with `lobelia precompute`");
+}
+
+void addCounts(const TileCounts& counts, uint64_t pixels, double seconds, Context& context) {
+  Statistics& s = context.statistics;
+  const auto spent = static_cast<double>(counts.bufferNs + counts.mergeNs + counts.shadeNs);
+  const auto share = [&](int64_t ns) {
+    return spent > 0 ? seconds * static_cast<double>(ns) / spent : 0;
+  };
+  s.addSeconds("buffer", share(counts.bufferNs));
+  s.addSeconds("merge", share(counts.mergeNs));
+  s.addSeconds("shade", share(counts.shadeNs));
+  s.addCount("frames", 1);
+  s.addCount("pixels", pixels);
+  s.addCount("object_pixels", counts.objectPixels);
+  s.addCount("vertices_merged", counts.vertices);
+  s.addCount("merged_nodes", counts.mergedNodes);
+  s.addCount("evaluations", counts.pixels.evaluations);
+  s.addCount("fine_chunks", counts.pixels.fineChunks);
+  s.addCount("nonfinite", counts.nonFinite);
+}
+
+}  // namespace
+
+struct FrameRenderer::Impl {
+  Impl(const Tracer& t, const EmitterSampler& e, const VisibilityData& d)
+      : tracer(t),
+        emitters(e),
+        data(requireEnvironment(d)),
+        lookup(data.samples.p),
+        light(distantLight(t.scene())) {}
+
+  // A tile's memory, of whoever needs one next.
+  std::unique_ptr<FrameTile> take() {
+    const std::lock_guard lock(mutex);
+    if (free.empty()) return std::make_unique<FrameTile>();
+    std::unique_ptr<FrameTile> tile = std::move(free.back());
+    free.pop_back();
+    return tile;
+  }
+  void giveBack(std::unique_ptr<FrameTile> tile) {
+    const std::lock_guard lock(mutex);
+    free.push_back(std::move(tile));
+  }
+
+  const Tracer& tracer;
+  const EmitterSampler& emitters;
+  const VisibilityData& data;
+  DirectionLookup lookup;
+  DistantLight light;
+  std::mutex mutex;
+  std::vector<std::unique_ptr<FrameTile>> free;
+};
+
+FrameRenderer::FrameRenderer(const Tracer& tracer, const EmitterSampler& emitters,
+                             const VisibilityData& data)
+    : impl_(std::make_unique<Impl>(tracer, emitters, data)) {}
+FrameRenderer::~FrameRenderer() = default;
+
+FrameLight FrameRenderer::light(double degrees, const LightCutSettings& settings,
+                                Context& context) const {
+  const StageTimer timer(context, "light");
+  const Mat4 turned = rotation(verticalOf(impl_->tracer.scene()), degrees);
+  return makeFrameLight(impl_->light, turned, impl_->data.samples, impl_->data.tree, impl_->lookup,
+                        settings);
+}
+
+void FrameRenderer::render(const FrameLight& light, const Camera& camera,
+                           const FrameSettings& settings, Film& film, Context& context) {
+  const int64_t start = nanosecondsNow();
+  const FrameInput input{impl_->tracer, impl_->emitters, impl_->data, impl_->lookup,
+                         light,         camera,          settings,    context.seed};
+  const int across = (film.width + FrameTile::kSize - 1) / FrameTile::kSize;
+  const int down = (film.height + FrameTile::kSize - 1) / FrameTile::kSize;
+  TileCounts counts;
+  std::mutex mutex;
+  parallelFor(static_cast<size_t>(across) * static_cast<size_t>(down), 1, [&](size_t i) {
+    if (context.cancelled()) return;
+    const int x = static_cast<int>(i) % across * FrameTile::kSize,
+              y = static_cast<int>(i) / across * FrameTile::kSize;
+    std::unique_ptr<FrameTile> tile = impl_->take();
+    const TileCounts own = tile->render(input, x, y, std::min(x + FrameTile::kSize, film.width),
+                                        std::min(y + FrameTile::kSize, film.height), film);
+    impl_->giveBack(std::move(tile));
+    const std::lock_guard lock(mutex);
+    counts.add(own);
+  });
+  if (context.cancelled()) throw Cancelled{};
+  addCounts(counts, film.pixelCount(), static_cast<double>(nanosecondsNow() - start) * 1e-9,
+            context);
+}
+
+}  // namespace lobelia::relight

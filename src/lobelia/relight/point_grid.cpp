@@ -1,0 +1,33 @@
+#include "lobelia/relight/point_grid.h"
+
+namespace lobelia::relight {
+
+PointGrid::PointGrid(std::span<const Vec3f> points, float radius)
+    : points_(points), radius_(radius) {
+  constexpr float kMostCells = 128;  // per axis
+  Bounds3f box;
+  for (const Vec3f p : points) box.add(p);
+  if (points.empty()) box.add(Vec3f(0.f));
+  const float cell = std::max(radius, maxComponent(box.extent()) / kMostCells);
+  origin_ = box.lo, inverseCell_ = 1 / cell;
+  const Vec3f extent = box.extent() * inverseCell_;
+  size_ = {static_cast<int>(extent.x) + 1, static_cast<int>(extent.y) + 1,
+           static_cast<int>(extent.z) + 1};
+  begin_.assign(index({0, 0, size_.z}) + 1, 0);
+  std::vector<size_t> cells(points.size());
+  for (size_t i = 0; i < points.size(); ++i) ++begin_[(cells[i] = index(cellOf(points[i]))) + 1];
+  for (size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
+  std::vector<size_t> next(begin_.begin(), begin_.end() - 1);
+  order_.resize(points.size());
+  for (size_t i = 0; i < points.size(); ++i) order_[next[cells[i]]++] = static_cast<uint32_t>(i);
+}
+
+PointGrid::Cell PointGrid::cellOf(Vec3f p) const {
+  const Vec3f at = (p - origin_) * inverseCell_;
+  const auto clamped = [](float v, int size) {
+    return static_cast<int>(std::clamp(v, 0.f, static_cast<float>(size - 1)));
+  };
+  return {clamped(at.x, size_.x), clamped(at.y, size_.y), clamped(at.z, size_.z)};
+}
+
+}  // namespace lobelia::relight
