@@ -25,6 +25,9 @@ Mesh translated(Mesh mesh, Vec3f by);
 Mesh turnedInsideOut(Mesh mesh);
 // One mesh of all; attributes are dropped, normals and uv stay where all have them.
 Mesh merged(const std::vector<Mesh>& meshes);
+// The largest of the parts that share no vertex, by its number of triangles: a polygonised body
+// without what closes hollows inside of it.
+Mesh largestPart(const Mesh& mesh);
 // Texture coordinates by projection along the axis that each vertex' normal is nearest to, so that
 // one texture repeat measures `metres`: on x and z faces u is horizontal and v up, on y faces
 // (u, v) = (x, z).

@@ -52,6 +52,7 @@ constexpr BuiltinScene kBuiltins[] = {
     {"teapot-256", teapot<256>, 55800, "teapot, Phong exponent 256"},
     {"teapot-512", teapot<512>, 55800, "teapot, Phong exponent 512"},
     {"room", makeRoom, 144000, "A dining room lit by its lamps and candles [P004]"},
+    {"statue", makeStatue, 134000, "A statue in folds of cloth, in the light of a hall [P004]"},
     {"study-room", makeStudyRoom, 100354, "Closed wavy room for measuring rates of rays"},
 };
 
