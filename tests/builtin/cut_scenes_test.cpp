@@ -79,6 +79,8 @@ TEST_P(EveryCutScene, IsLitByTheKindOfLightItIsFor) {
 
 constexpr CutScene kScenes[] = {
     {"statue", 68e3, 0.11f, true},
+    {"machine", 112e3, 0.11f, true},
+    {"plants", 114e3, 0.068f, true},
 };
 INSTANTIATE_TEST_SUITE_P(Figure9, EveryCutScene, testing::ValuesIn(kScenes),
                          [](const testing::TestParamInfo<CutScene>& entry) {

@@ -29,5 +29,7 @@ Scene makeRoom(float detail);
 
 // Of the size of the scenes in [P004 figure 9].
 Scene makeStatue(float detail);
+Scene makeMachine(float detail);
+Scene makePlants(float detail);
 
 }  // namespace lobelia::builtin

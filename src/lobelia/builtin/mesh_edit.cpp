@@ -56,6 +56,11 @@ Mesh translated(Mesh mesh, Vec3f by) {
   return mesh;
 }
 
+Mat4 moving(Vec3f by) {
+  return translation(
+      {static_cast<double>(by.x), static_cast<double>(by.y), static_cast<double>(by.z)});
+}
+
 Mesh turnedInsideOut(Mesh mesh) {
   for (Vec3f& n : mesh.normals) n = -n;
   reverseTriangles(mesh);

@@ -21,6 +21,7 @@ void addGrid(Mesh& mesh, size_t base, int rows, int columns);
 // Points, normals and, where it mirrors, the triangles' orientation.
 Mesh transformed(Mesh mesh, const Mat4& matrix);
 Mesh translated(Mesh mesh, Vec3f by);
+Mat4 moving(Vec3f by);
 // Seen from the other side.
 Mesh turnedInsideOut(Mesh mesh);
 // One mesh of all; attributes are dropped, normals and uv stay where all have them.
