@@ -74,6 +74,14 @@ TEST(BuiltinToolkit, MirroringKeepsTheOutsideOut) {
   EXPECT_NEAR(volume(two), 2 * volume(mesh), 1e-3);
 }
 
+TEST(BuiltinToolkit, LargestPartLeavesTheRestOut) {
+  const Mesh large = ball(1, 16, 32), small = ball(0.3f, 8, 16);
+  const Mesh part = largestPart(merged({small, large, small}));
+  expectSound(part);
+  EXPECT_EQ(part.triangles.size(), large.triangles.size());
+  EXPECT_DOUBLE_EQ(volume(part), volume(large));
+}
+
 TEST(BuiltinToolkit, PolygonsAreTriangulatedCompletely) {
   Polygon star;
   for (int i = 0; i < 10; ++i) star.push_back(circle(i, 10) * (i % 2 ? 0.4f : 1.f));

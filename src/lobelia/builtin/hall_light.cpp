@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "lobelia/base/parallel.h"
+#include "lobelia/builtin/environment.h"
 #include "lobelia/builtin/noise.h"
 
 namespace lobelia::builtin {
@@ -51,37 +51,8 @@ Rgb hallRadiance(Vec3f d) {
 
 }  // namespace
 
-Image hallLight(int height) {
-  Image image;
-  image.name = "hall-light";
-  image.height = height, image.width = 2 * height, image.channels = 3;
-  image.pixels.resize(static_cast<size_t>(image.width * height * 3));
-  parallelFor(static_cast<size_t>(height), 4, [&](size_t y) {
-    for (int x = 0; x < image.width; ++x) {
-      Rgb sum;
-      constexpr int kSub = 3;  // samples along a pixel's side
-      for (int s = 0; s < kSub * kSub; ++s) {
-        const float u = (static_cast<float>(x) + (static_cast<float>(s % kSub) + 0.5f) / kSub) /
-                        static_cast<float>(image.width);
-        const float v = (static_cast<float>(y) + (static_cast<float>(s / kSub) + 0.5f) / kSub) /
-                        static_cast<float>(height);
-        const float phi = kTwoPi * u, theta = kPi * v;
-        sum += hallRadiance(
-            {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)});
-      }
-      const size_t at = (y * static_cast<size_t>(image.width) + static_cast<size_t>(x)) * 3;
-      for (int c = 0; c < 3; ++c) image.pixels[at + static_cast<size_t>(c)] = sum[c] / (3 * 3);
-    }
-  });
-  return image;
-}
-
 void addHallLight(SceneBuilder& scene, double degrees) {
-  Emitter hall;
-  hall.type = EmitterType::environment;
-  hall.image = scene.add(hallLight(256));
-  hall.toWorld = Transform(rotation({0, 1, 0}, degrees));
-  scene.add(hall, "hall");
+  addEnvironment(scene, environmentImage(256, hallRadiance, "hall-light"), degrees, "hall");
 }
 
 }  // namespace lobelia::builtin

@@ -5,8 +5,6 @@
 
 namespace lobelia::builtin {
 
-// Equirectangular, y up, `height` rows and twice as many columns.
-Image hallLight(int height);
 // As the scene's environment, turned about y.
 void addHallLight(SceneBuilder& scene, double degrees);
 

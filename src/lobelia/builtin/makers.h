@@ -27,4 +27,9 @@ Scene makeTeapot(float detail, float exponent);
 Scene makeGlasses(float detail);
 Scene makeRoom(float detail);
 
+// Of the size of the scenes in [P004 figure 9].
+Scene makeStatue(float detail);
+Scene makeMachine(float detail);
+Scene makePlants(float detail);
+
 }  // namespace lobelia::builtin

@@ -1,6 +1,8 @@
 #include "lobelia/builtin/mesh_edit.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lobelia/io/mesh_io.h"
 
@@ -54,6 +56,11 @@ Mesh translated(Mesh mesh, Vec3f by) {
   return mesh;
 }
 
+Mat4 moving(Vec3f by) {
+  return translation(
+      {static_cast<double>(by.x), static_cast<double>(by.y), static_cast<double>(by.z)});
+}
+
 Mesh turnedInsideOut(Mesh mesh) {
   for (Vec3f& n : mesh.normals) n = -n;
   reverseTriangles(mesh);
@@ -79,6 +86,33 @@ Mesh merged(const std::vector<Mesh>& meshes) {
   if (!normals) all.normals.clear();
   if (!uvs) all.uvs.clear();
   return all;
+}
+
+Mesh largestPart(const Mesh& mesh) {
+  std::vector<uint32_t> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const Vec3u t : mesh.triangles)
+    for (int c = 1; c < 3; ++c) parent[root(t[c])] = root(t[0]);
+  std::vector<size_t> sizes(parent.size());
+  for (const Vec3u t : mesh.triangles) ++sizes[root(t[0])];
+  const auto largest =
+      static_cast<uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  Mesh part;
+  std::vector<uint32_t> place(parent.size());
+  for (uint32_t v = 0; v < parent.size(); ++v) {
+    if (root(v) != largest) continue;
+    place[v] = static_cast<uint32_t>(part.positions.size());
+    part.positions.push_back(mesh.positions[v]);
+    if (!mesh.normals.empty()) part.normals.push_back(mesh.normals[v]);
+    if (!mesh.uvs.empty()) part.uvs.push_back(mesh.uvs[v]);
+  }
+  for (const Vec3u t : mesh.triangles)
+    if (root(t[0]) == largest) part.triangles.push_back({place[t.x], place[t.y], place[t.z]});
+  return part;
 }
 
 void projectUvs(Mesh& mesh, float metres) {

@@ -21,10 +21,14 @@ void addGrid(Mesh& mesh, size_t base, int rows, int columns);
 // Points, normals and, where it mirrors, the triangles' orientation.
 Mesh transformed(Mesh mesh, const Mat4& matrix);
 Mesh translated(Mesh mesh, Vec3f by);
+Mat4 moving(Vec3f by);
 // Seen from the other side.
 Mesh turnedInsideOut(Mesh mesh);
 // One mesh of all; attributes are dropped, normals and uv stay where all have them.
 Mesh merged(const std::vector<Mesh>& meshes);
+// The largest of the parts that share no vertex, by its number of triangles: a polygonised body
+// without what closes hollows inside of it.
+Mesh largestPart(const Mesh& mesh);
 // Texture coordinates by projection along the axis that each vertex' normal is nearest to, so that
 // one texture repeat measures `metres`: on x and z faces u is horizontal and v up, on y faces
 // (u, v) = (x, z).
