@@ -170,14 +170,35 @@ TEST(BenchVsgl, TimesAndCuts) {
       "vsgl --scene study-ggx --figures time,cuts --size 32x24 --pixels 60 --spp 64 --num-lights "
       "2000");
   const json& time = result["time"];
-  expectNumbers(time, 7, {"lights", "receivers", "shade", "mrays"});
+  expectNumbers(time, 8, {"lights", "receivers", "shade", "mrays"});
   EXPECT_EQ(time[0]["l2"], 0);
-  EXPECT_LT(time[4]["l2"], time[2]["l2"]) << "64 rays, 4 rays";
-  EXPECT_LT(time[2]["mrays"], time[0]["mrays"]);
-  EXPECT_EQ(time[6]["lights"], 2);
+  EXPECT_EQ(time[2]["shadows"], "maps");
+  EXPECT_LT(time[2]["l2"], 0.5 * time[6]["l2"].get<double>()) << "maps, none";
+  EXPECT_LT(time[5]["l2"], time[3]["l2"]) << "64 rays, 4 rays";
+  EXPECT_LT(time[3]["mrays"], time[0]["mrays"]);
+  EXPECT_EQ(time[7]["lights"], 2);
   const json& cuts = result["cuts"];
   expectNumbers(cuts, 21, {"gathered", "rays", "l2", "mean_ratio"});
   EXPECT_GT(cuts[6]["gathered"], cuts[0]["gathered"]);
+}
+
+TEST(BenchCuts, DataAndError) {
+  const TemporaryFolder folder;
+  const json result = runBench(
+      "cuts --scene statue --detail 0.05 --size 48x36 --spp 32 --num-lights 2048 "
+      "-o " +
+      folder.path());
+  const json& data = result["figure9"];
+  expectNumbers(data, 2, {"vertices", "seconds", "mrays", "mb", "cut", "rms", "bytes"});
+  EXPECT_LT(data[0]["rms"], 0.2);
+  EXPECT_LT(data[1]["bytes"], 4);
+  EXPECT_TRUE(data[0]["gain"].is_null());
+  EXPECT_GT(data[1]["fps512"], 0);
+  const json& error = result["figure10"];
+  expectNumbers(error, 12, {"nodes", "l2", "mean_ratio"});
+  EXPECT_LT(error[6]["l2"], error[0]["l2"]) << "512 nodes, 64 nodes";
+  EXPECT_NEAR(error[6]["mean_ratio"].get<double>(), 1, 0.03);
+  expectPictures(folder, "cuts", {"figure10-statue-path", "figure10-statue-512"});
 }
 
 TEST(BenchVsl, MethodsSideBySide) {

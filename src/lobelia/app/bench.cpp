@@ -33,6 +33,7 @@ constexpr Study kStudies[] = {
     {"vsgl", "virtual spherical Gaussian lights: sampling, time and cuts", benchVsgl, vsglFigures},
     {"sglc", "spherical-Gaussian lightcuts: table 2 and figures 4 to 9 of their paper", benchSglc,
      sglcFigures},
+    {"cuts", "visibility cuts: figures 9 and 10 of their paper", benchCuts, cutsFigures},
 };
 
 std::vector<std::string> studyNames() {
@@ -77,12 +78,13 @@ void requireOptions(const Study& study, const BenchOptions& options) {
         "bench {} has no use for --sets; clamp, convergence and rates have", options.name));
   if (study.figures != nullptr) return;
   if (options.scenes.size() > 1) {
-    throw UsageError(
-        fmt::format("bench {} takes one --scene; vsl, vsgl and sglc take several", options.name));
+    throw UsageError(fmt::format(
+        "bench {} takes one --scene; vsl, vsgl, sglc and cuts take several", options.name));
   }
   if (!options.output.empty() || !options.figures.empty()) {
-    throw UsageError(fmt::format(
-        "bench {} has no use for --output or --figures; vsl, vsgl and sglc have", options.name));
+    throw UsageError(
+        fmt::format("bench {} has no use for --output or --figures; vsl, vsgl, sglc and cuts have",
+                    options.name));
   }
 }
 
@@ -114,16 +116,16 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
       ->check(offered(studyNames()))
       ->required();
   c.add_option("--scene", o.scenes,
-               "Run the study on this scene file or built-in scene instead of its own; vsl, vsgl "
-               "and sglc take several")
+               "Run the study on this scene file or built-in scene instead of its own; vsl, vsgl, "
+               "sglc and cuts take several")
       ->type_name("FILE|SCENE")
       ->allow_extra_args(false);
   c.add_option("-o,--output", o.output,
-               "vsl, vsgl, sglc: folder for pictures and for a page that shows them with the "
+               "vsl, vsgl, sglc, cuts: folder for pictures and for a page that shows them with the "
                "tables; without "
                "it vsl renders only the pixels compared")
       ->type_name("FOLDER");
-  c.add_option("--figures", o.figures, "vsl, vsgl, sglc: figures of the study; default: all")
+  c.add_option("--figures", o.figures, "vsl, vsgl, sglc, cuts: figures of the study; default: all")
       ->type_name("LIST")
       ->check(offered(figureNames()));
   c.add_option("--methods", o.methods,
@@ -152,8 +154,9 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
   c.add_option("--max-depth", o.maxDepth, "As for render; default: the scene's, else unlimited")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 20));
-  c.add_option("--num-lights", o.lightCount,
-               "Virtual lights in a set (convergence: in the largest set)")
+  c.add_option(
+       "--num-lights", o.lightCount,
+       "Virtual lights in a set (convergence: in the largest set; cuts: directions of light)")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 31));
   c.add_option("--rows", o.rows, "vsl: rows of --gather mrcs, as for render")

@@ -21,5 +21,7 @@ std::vector<BenchTable> benchVsgl(const BenchOptions& options, Context& context)
 const std::vector<std::string>& sglcFigures();
 const std::vector<std::string>& sglcMethodKeys();  // what --methods may name
 std::vector<BenchTable> benchSglc(const BenchOptions& options, Context& context);
+const std::vector<std::string>& cutsFigures();
+std::vector<BenchTable> benchCuts(const BenchOptions& options, Context& context);
 
 }  // namespace lobelia::app

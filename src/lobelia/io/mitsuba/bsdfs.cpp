@@ -12,14 +12,31 @@ namespace lobelia::io::mitsuba {
 namespace {
 
 const std::vector<std::string>& bsdfTypes() {
-  static const std::vector<std::string> types{
-      "diffuse",           "conductor",       "roughconductor", "dielectric",
-      "thindielectric",    "roughdielectric", "plastic",        "roughplastic",
-      "principled",        "principledthin",  "phong",          "ward",
-      "difftrans",         "twosided",        "mask",           "blendbsdf",
-      "mixturebsdf",       "bumpmap",         "normalmap",      "null",
-      "metallicroughness", "coatedconductor", "sphericalgaussians", "measured",
-      "merl"};
+  static const std::vector<std::string> types{"diffuse",
+                                              "conductor",
+                                              "roughconductor",
+                                              "dielectric",
+                                              "thindielectric",
+                                              "roughdielectric",
+                                              "plastic",
+                                              "roughplastic",
+                                              "principled",
+                                              "principledthin",
+                                              "phong",
+                                              "ward",
+                                              "difftrans",
+                                              "twosided",
+                                              "mask",
+                                              "blendbsdf",
+                                              "mixturebsdf",
+                                              "bumpmap",
+                                              "normalmap",
+                                              "null",
+                                              "metallicroughness",
+                                              "coatedconductor",
+                                              "sphericalgaussians",
+                                              "measured",
+                                              "merl"};
   return types;
 }
 

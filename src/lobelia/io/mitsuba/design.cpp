@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "lobelia/io/mitsuba/reader.h"
+#include "lobelia/io/mitsuba/writer.h"
 
 namespace lobelia::io {
 namespace mitsuba {
@@ -32,6 +33,11 @@ std::string nearest(const std::string& name, const std::vector<T>& items) {
   for (size_t i = 0; i < std::min(names.size(), kShown); ++i)
     list += (i == 0 ? "" : ", ") + names[i];
   return "; there are " + list + (names.size() > kShown ? "..." : "");
+}
+
+// Is this what an id names? Also as the scene is called when it is written as a file.
+bool isCalled(const std::string& name, const std::string& id) {
+  return !name.empty() && (name == id || cleanName(name) == id);
 }
 
 // Do lights of these types exclude each other?
@@ -67,10 +73,10 @@ void Reader::changeMaterials(const std::vector<const Element*>& elements) {
     const MaterialHandle changed = material(*e);
     bool found = false;
     for (size_t i = 0; i < before.size(); ++i) {
-      if (before[i].name != name) continue;
+      if (!isCalled(before[i].name, name)) continue;
       found = true;
       scene_.materials[i] = scene_[changed];
-      scene_.materials[i].name = name;
+      scene_.materials[i].name = before[i].name;
     }
     if (!found)
       throw InputError(
@@ -89,7 +95,7 @@ void Reader::changeEmitter(const Element& element) {
   }
   for (Emitter& changed : scene_.emitters) {
     const auto target = std::find_if(before.begin(), before.end(), [&](const Emitter& e) {
-      return sameRole(e.type, changed.type) || (!changed.name.empty() && e.name == changed.name);
+      return sameRole(e.type, changed.type) || isCalled(e.name, changed.name);
     });
     const bool onSurface = target != before.end() && target->type == EmitterType::area;
     if (area && !onSurface)
@@ -114,7 +120,7 @@ void Reader::changeSensor(const Element& element) {
   scene_.cameras.clear();
   const std::string name = element.valueOr("id", "");
   auto target = std::find_if(before.begin(), before.end(),
-                             [&](const Camera& c) { return !name.empty() && c.name == name; });
+                             [&](const Camera& c) { return isCalled(c.name, name); });
   if (!before.empty()) film_ = target != before.end() ? *target : before.front();
   sensor(element);
   if (target == before.end()) target = before.insert(before.begin(), Camera{});

@@ -80,7 +80,7 @@ void createFolder(const std::string& folder) {
 
 }  // namespace
 
-std::string Names::make(const std::string& wanted, const std::string& otherwise) {
+std::string cleanName(const std::string& wanted) {
   std::string clean;
   for (const char c : wanted) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -90,6 +90,11 @@ std::string Names::make(const std::string& wanted, const std::string& otherwise)
   while (!clean.empty() && clean[0] == '.')
     clean.erase(0, 1);  // hidden files, "..", names of nothing
   if (clean.size() > 80) clean.resize(80);
+  return clean;
+}
+
+std::string Names::make(const std::string& wanted, const std::string& otherwise) {
+  std::string clean = cleanName(wanted);
   if (clean.empty()) clean = otherwise;
   std::string name = clean;
   for (int i = 2; !taken_.insert(name).second; ++i) name = fmt::format("{}_{}", clean, i);

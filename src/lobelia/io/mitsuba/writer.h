@@ -12,8 +12,10 @@
 
 namespace lobelia::io::mitsuba {
 
-// Gives each object of a file its own name, of characters that mean nothing to XML readers, shells
-// and file systems.
+// Without characters that mean something to XML readers, shells or file systems; may be empty.
+std::string cleanName(const std::string& wanted);
+
+// Gives each object of a file its own clean name.
 class Names {
  public:
   // `wanted` made clean (or `otherwise` when nothing is left), with a number when it is taken.

@@ -1,0 +1,64 @@
+#include "lobelia/app/bench_cuts.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "lobelia/app/bench_studies.h"
+
+namespace lobelia::app {
+namespace {
+
+const std::vector<std::string> kScenes = {"statue", "machine", "plants"};
+constexpr int kDirectLight = 2;  // --max-depth
+
+}  // namespace
+
+void CutsStudy::progress(const std::string& scene, const std::string& what) const {
+  context.progress(fmt::format("{}{}, {}", kBenchStage, scene, what), 0.5);
+}
+
+BenchOptions CutsStudy::optionsOf(const std::string& scene) const {
+  BenchOptions out = options;
+  out.scene.scene = scene;
+  if (out.maxDepth == 0) out.maxDepth = kDirectLight;
+  return out;
+}
+
+size_t CutsStudy::sampleCount() const {
+  constexpr uint64_t kMost = 32768;
+  if (options.lightCount == 0) return kMost;
+  if (!std::has_single_bit(options.lightCount) || options.lightCount > kMost)
+    throw UsageError(fmt::format("bench cuts: --num-lights {} directions: a power of two up to {}",
+                                 options.lightCount, kMost));
+  return options.lightCount;
+}
+
+Film emptyFrame(const Camera& camera) {
+  Film film = makeFilm(camera, {});
+  film.layers.erase("direct");
+  film.layers.erase("indirect");
+  return film;
+}
+
+const std::vector<std::string>& cutsFigures() {
+  static const std::vector<std::string> figures{"9", "10"};
+  return figures;
+}
+
+std::vector<BenchTable> benchCuts(const BenchOptions& options, Context& context) {
+  const std::set<std::string> figures = chosenOf("--figures", options.figures, cutsFigures());
+  FigureReport report(options.output, "cuts", "Visibility cuts");
+  const CutsStudy study{options, report, context};
+  for (const std::string& scene : options.scenes.empty() ? kScenes : options.scenes) {
+    try {
+      if (figures.contains("9") && !context.cancelled()) cutsData(scene, study);
+      if (figures.contains("10") && !context.cancelled()) cutsError(scene, study);
+    } catch (const Cancelled&) {  // the tables have what there is
+    }
+    report.writePage(options.commandLine);
+  }
+  return report.takeTables();
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,34 @@
+// What the files of the study `cuts` share: visibility cuts [P004] on any scenes lit from infinity.
+//
+//  bench_cuts.cpp        options, scenes, figures: the study itself
+//  bench_cuts_data.cpp   figure 9: size and time of the data, frames per second
+//  bench_cuts_error.cpp  figure 10: error of frames by the size of the light cut
+#pragma once
+
+#include "lobelia/app/bench_figures.h"
+#include "lobelia/app/bench_scene.h"
+#include "lobelia/relight/frame.h"
+#include "lobelia/relight/precompute.h"
+
+namespace lobelia::app {
+
+struct CutsStudy {
+  const BenchOptions& options;
+  FigureReport& report;
+  Context& context;
+  bool cancelled() const { return context.cancelled(); }
+  void progress(const std::string& scene, const std::string& what) const;
+  // For this scene, 640 pixels wide unless the options say more; direct light unless they do.
+  BenchOptions optionsOf(const std::string& scene) const;
+  size_t sampleCount() const;  // of directions; throws UsageError
+};
+
+inline constexpr int kCutsWidth = 640;
+inline constexpr size_t kPaperLightCuts[] = {128, 256, 512};
+
+Film emptyFrame(const Camera& camera);
+
+void cutsData(const std::string& scene, const CutsStudy& study);
+void cutsError(const std::string& scene, const CutsStudy& study);
+
+}  // namespace lobelia::app
