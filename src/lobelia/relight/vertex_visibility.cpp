@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "lobelia/base/random.h"
 
@@ -17,6 +18,19 @@ constexpr int kMostLevel = 10, kLeastLevel = 5;
 uint32_t probeCount(int level) { return level >= 8 ? 8 : 4; }
 
 uint64_t bit(uint32_t leaf) { return uint64_t{1} << (leaf % 64); }
+
+// Bit i: flags[i], which is 0 or 1. The product moves the lowest bits of eight bytes into its top
+// byte, each to its place.
+uint64_t packed(const uint8_t (&flags)[64]) {
+  static_assert(std::endian::native == std::endian::little);
+  uint64_t bits = 0;
+  for (int i = 0; i < 8; ++i) {
+    uint64_t eight;
+    std::memcpy(&eight, flags + 8 * i, 8);
+    bits |= (eight * 0x0102040810204080u >> 56) << (8 * i);
+  }
+  return bits;
+}
 
 // The part of a word that a node of at most 64 leaves takes.
 uint64_t nodeMask(int level, uint32_t begin) {
@@ -72,17 +86,23 @@ VertexTracer::VertexTracer(const Tracer& tracer, const LightSamples& samples,
 
 // The samples of a word in front of a face (side 1) or behind it (-1) that send light there.
 uint64_t VertexTracer::facing(const FacePlace& face, float side, uint32_t word) const {
-  float front[64], sent[64];
   const size_t first = size_t{word} * 64;
-  const Vec3f n = face.n * side, o = directions_ ? Vec3f(0.f) : side > 0 ? face.front : face.back;
-  for (size_t i = 0; i < 64; ++i) {
-    const float dx = x_[first + i] - o.x, dy = y_[first + i] - o.y, dz = z_[first + i] - o.z;
-    front[i] = n.x * dx + n.y * dy + n.z * dz;
-    sent[i] = nx_[first + i] * dx + ny_[first + i] * dy + nz_[first + i] * dz;
+  const float *x = &x_[first], *y = &y_[first], *z = &z_[first];
+  const Vec3f n = face.n * side;
+  uint8_t flags[64];
+  if (directions_) {
+    for (size_t i = 0; i < 64; ++i) flags[i] = n.x * x[i] + n.y * y[i] + n.z * z[i] > 0;
+  } else {
+    const Vec3f o = side > 0 ? face.front : face.back;
+    const float *nx = &nx_[first], *ny = &ny_[first], *nz = &nz_[first];
+    for (size_t i = 0; i < 64; ++i) {
+      const float dx = x[i] - o.x, dy = y[i] - o.y, dz = z[i] - o.z;
+      const bool front = n.x * dx + n.y * dy + n.z * dz > 0;
+      const bool sent = nx[i] * dx + ny[i] * dy + nz[i] * dz < 0;
+      flags[i] = static_cast<uint8_t>(front & sent);
+    }
   }
-  uint64_t bits = 0;
-  for (size_t i = 0; i < 64; ++i)
-    bits |= uint64_t{front[i] > 0 && (directions_ || sent[i] < 0)} << i;
+  const uint64_t bits = packed(flags);
   return first + 64 > count_ ? bits & ((uint64_t{1} << (count_ - first)) - 1) : bits;
 }
 
