@@ -66,8 +66,8 @@ TEST(LightValues, KeepTheEnergyOfAnyMap) {
     int width, height, x, y;
     float sun, floor;
   };
-  for (const Map& m : {Map{512, 256, 100, 70, 1e5f, 0.f}, Map{512, 256, 511, 128, 50.f, 1.f},
-                       Map{16, 8, 3, 3, 9.f, 0.1f}, Map{2048, 1024, 10, 700, 1e4f, 0.01f}}) {
+  for (const Map& m : {Map{512, 256, 100, 70, 1e5f, 0.f}, Map{16, 8, 3, 3, 9.f, 0.1f},
+                       Map{2048, 1024, 10, 700, 1e4f, 0.01f}}) {
     const Scene scene = sunnyScene(m.width, m.height, m.x, m.y, m.sun, m.floor);
     const double integral = integralOf(scene);
     const DistantLight light = distantLight(scene);
