@@ -138,12 +138,13 @@ TEST(CutMerge, VisitsTheNodesOfThePapersFormulation) {
 }
 
 TEST(CutMerge, EndsWithTheFirstCutThatEnds) {
-  const ValueCut whole{{2, 1.f}}, half{{1, 1.f}}, none;
+  const ValueCut whole(1, ValueNode{2, 1.f}), half(1, ValueNode{1, 1.f}), none;
   size_t leaves = 0;
-  auto at = cursors({half, whole});
+  const std::vector<ValueCut> two{half, whole}, empty{whole, none};
+  auto at = cursors(two);
   mergeCuts<ValueNode>(at, [&](MergedNode node) { leaves += node.leafCount(); });
   EXPECT_EQ(leaves, 2u);
-  at = cursors({whole, none});
+  at = cursors(empty);
   mergeCuts<ValueNode>(at, [&](MergedNode) { FAIL(); });
 }
 
@@ -152,7 +153,8 @@ struct Moments {
 };
 Moments momentsOf(const std::vector<float>& leaves, MergedNode node) {
   Moments m;
-  for (uint32_t i = 0; i < node.leafCount(); ++i) m.mean += static_cast<double>(leaves[node.firstLeaf + i]);
+  for (uint32_t i = 0; i < node.leafCount(); ++i)
+    m.mean += static_cast<double>(leaves[node.firstLeaf + i]);
   m.mean /= node.leafCount();
   for (uint32_t i = 0; i < node.leafCount(); ++i)
     m.deviation += std::pow(static_cast<double>(leaves[node.firstLeaf + i]) - m.mean, 2);
@@ -161,8 +163,8 @@ Moments momentsOf(const std::vector<float>& leaves, MergedNode node) {
 }
 
 // Of products of two functions a, b at a merged node C, a's value being that of a larger node:
-// the error is at most s_a s_b + sqrt(|C|) s |<b>|, s the deviation of a at the node of its own cut.
-// With both means taken at C it is at most s_a s_b (equation 8).
+// the error is at most s_a s_b + sqrt(|C|) s |<b>|, s the deviation of a at the node of its own
+// cut. With both means taken at C it is at most s_a s_b (equation 8).
 TEST(CutMerge, ErrorsOfProductsKeepToTheCorrectedBound) {
   size_t nodes = 0, beyondThePapers = 0;
   for (uint64_t i = 0; i < 300; ++i) {

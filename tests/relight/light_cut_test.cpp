@@ -51,7 +51,9 @@ TEST(LightCut, IsolatesTheSunThenDividesTheBrightest) {
   // The even rest: no node has much more light than another, but for those beside the sun.
   const float mean = 0.01f * 4 * kPi / 64;
   for (size_t i = 0; i < cut.count; ++i)
-    if (cut.g[i] < 1) EXPECT_LT(cut.g[i], 3 * mean);
+    if (cut.g[i] < 1) {
+      EXPECT_LT(cut.g[i], 3 * mean);
+    }
 }
 
 TEST(LightCut, OfNoLightIsTheRoot) {

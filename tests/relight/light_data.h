@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lobelia/relight/frame_light.h"
 #include "lobelia/base/sampling.h"
+#include "lobelia/relight/frame_light.h"
 
 namespace lobelia::test {
 
@@ -17,8 +17,7 @@ inline void sortTree(std::span<Vec3f> p) {
   const Vec3f e = box.extent();
   const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
   const auto middle = p.begin() + static_cast<std::ptrdiff_t>(p.size() / 2);
-  std::nth_element(p.begin(), middle, p.end(),
-                   [&](Vec3f a, Vec3f b) { return a[axis] < b[axis]; });
+  std::nth_element(p.begin(), middle, p.end(), [&](Vec3f a, Vec3f b) { return a[axis] < b[axis]; });
   sortTree(p.first(p.size() / 2));
   sortTree(p.subspan(p.size() / 2));
 }

@@ -46,7 +46,8 @@ inline ValueCut randomCut(const std::vector<float>& leaves, int levels, float ch
                           uint64_t seed) {
   Rng rng(seed, 11);
   ValueCut cut;
-  appendCut(relight::nodeMeans(std::span<const float>(leaves)), levels, levels, 0, chance, rng, &cut);
+  appendCut(relight::nodeMeans(std::span<const float>(leaves)), levels, levels, 0, chance, rng,
+            &cut);
   return cut;
 }
 

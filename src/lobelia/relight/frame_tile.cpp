@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lobelia/base/random.h"
+#include "lobelia/trace/flush_denormals.h"
 
 namespace lobelia::relight {
 
@@ -77,6 +78,7 @@ Rgb FrameTile::radiance(const FrameInput& input, const Pixel& pixel) {
 }
 
 TileCounts FrameTile::render(const FrameInput& input, int x0, int y0, int x1, int y1, Film& film) {
+  const FlushDenormals flush;  // tails of narrow lobes are full of them
   TileCounts counts;
   sums_.assign(kSize * kSize, Rgb{});
   vertices_.begin(input.light, input.data.cuts);

@@ -34,7 +34,7 @@ std::vector<Vec3f> jitteredLattice(size_t count, uint64_t seed, float spacing) {
     const Vec3f p = frame.toWorld({static_cast<float>(r * std::cos(phi)),
                                    static_cast<float>(r * std::sin(phi)), static_cast<float>(z)});
     Sampler random(hashCombine(seed, kStream), i, 0);
-    const Vec2f move = sampleDiskConcentric(random.next2D()) * (0.4f * spacing);
+    const Vec2f move = sampleDiskConcentric(random.next2D()) * (0.1f * spacing);
     points[i] = normalize(frameFromNormal(p).toWorld({move.x, move.y, 1}));
   });
   return points;

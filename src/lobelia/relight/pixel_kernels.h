@@ -37,6 +37,9 @@ struct LobeQuery {
   const ShadingFrame* frame;
   Vec3f baseNormal;  // before bump and normal maps
   Vec3f wo;          // world
+  // Registers are left out whose directions are all farther than this from the mirror direction.
+  Vec3f mirror{};
+  float leastCosine = -2;  // -2: none is
 };
 // Sum of f cos times light over the lanes of the masks ([chunkCount]), in the order of nodes lane
 // by lane. Reflecting lobes that are no delta lobes. *evaluations grows by the lanes evaluated.

@@ -56,8 +56,9 @@ Rgb PixelShader::reflected(const Bsdf& bsdf, Vec3f wo, const PixelPlace& place) 
   Rgb sum{};
   for (int l = 0; l < bsdf.lobeCount; ++l) {
     const Lobe& lobe = bsdf.lobes[l];
-    if (isTransmission(lobe.type)) continue;
     const LobeQuery query{&lobe, &bsdf.frameOf(lobe), bsdf.baseNormal, wo};
+    const bool seen = dot(query.frame->n, wo) > 0 || lobe.twoSided || lobe.interface;
+    if (isTransmission(lobe.type) || !seen) continue;
     sum += isMirror(lobe) ? mirrored(query) : lobeSum(query);
   }
   return sum;
@@ -66,7 +67,12 @@ Rgb PixelShader::reflected(const Bsdf& bsdf, Vec3f wo, const PixelPlace& place) 
 Rgb PixelShader::lobeSum(const LobeQuery& query) {
   Lobe widened;
   const std::optional<LobeReach> reach = lobeReach(*query.lobe, light_->sums.levels, &widened);
-  const LobeQuery smooth{&widened, query.frame, query.baseNormal, query.wo};
+  LobeQuery smooth = query;
+  smooth.lobe = &widened;
+  if (reach && reach->ends) {
+    smooth.mirror = mirrorDirection(query);
+    smooth.leastCosine = std::cos(reach->radius);
+  }
   if (refined_ && reach && static_cast<size_t>(reach->level) < light_->fine.size()) {
     const FineUnits& units = light_->fine[static_cast<size_t>(reach->level)];
     if (units.count > 0) return refinedSum(smooth, units, reach->radius);

@@ -99,6 +99,7 @@ LightSum sumLobeOf(Tags tags, const relight::LobeQuery& query, const relight::Di
   p.sides = Vf(lobe.interface ? 2.f : (lobe.twoSided ? 1.f : 0.f));
   const V3<Vf> s = splatVector(frame.s), t = splatVector(frame.t), n = splatVector(frame.n);
   const V3<Vf> wo = splatVector(frame.toLocal(query.wo));
+  const V3<Vf> mirror = splatVector(query.mirror);
   const LayerTable table{lobe.table};
   LightSum out = noLight();
   for (size_t chunk = 0; chunk < light.chunkCount; ++chunk) {
@@ -108,6 +109,7 @@ LightSum sumLobeOf(Tags tags, const relight::LobeQuery& query, const relight::Di
       const size_t at = chunk * relight::kChunk + lane;
       const V3<Vf> d{Vf::load(light.x.data() + at), Vf::load(light.y.data() + at),
                      Vf::load(light.z.data() + at)};
+      if (!any(dot(mirror, d) > Vf(query.leastCosine))) continue;
       const V3<Vf> wi{dot(s, d), dot(t, d), dot(n, d)};
       V3<Vf> f = evaluateLobe(LobeTags(tags), p, wo, wi, table);
       if (frame.perturbed) f = f * bumpFactor(frame, query.baseNormal, d, wi.z);

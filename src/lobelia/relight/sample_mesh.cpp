@@ -1,6 +1,7 @@
 #include "lobelia/relight/sample_mesh.h"
 
-#include <bit>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -46,11 +47,24 @@ Barycentric inChild(Corners corners, const Barycentric& at) {
   return {{det(at.b, b, c) * inverse, det(a, at.b, c) * inverse, det(a, b, at.b) * inverse}};
 }
 
-struct PlaceHash {
-  size_t operator()(Vec3f p) const {
-    return hashCombine(hashCombine(std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y)),
-                       std::bit_cast<uint32_t>(p.z));
+// Places that are the same but for rounding have one key; on the border of a cell there may be two,
+// which leaves two vertices where one would do.
+class PlaceKeys {
+ public:
+  explicit PlaceKeys(const Scene& scene) {
+    // A power of two, so that what is exact stays so.
+    const float size = maxComponent(bounds(scene).extent());
+    if (size > 0 && std::isfinite(size)) inverse_ = std::exp2(22 - std::floor(std::log2(size)));
   }
+  uint64_t operator()(Vec3f p) const {
+    uint64_t key = 0;
+    for (int c = 0; c < 3; ++c)
+      key = hashCombine(key, static_cast<uint64_t>(std::llround(double{p[c]} * double{inverse_})));
+    return key;
+  }
+
+ private:
+  float inverse_ = 1;
 };
 
 void requireValid(const std::vector<Vec3f>& positions, const std::vector<SampleTriangle>& triangles,
@@ -110,7 +124,8 @@ SampleMesh weldedMesh(const Scene& scene) {
   std::vector<Vec3f> positions;
   std::vector<SampleTriangle> triangles;
   std::vector<uint32_t> firstTriangle{0};
-  std::unordered_map<Vec3f, uint32_t, PlaceHash> known;
+  const PlaceKeys keyOf(scene);
+  std::unordered_map<uint64_t, uint32_t> known;
   std::vector<uint32_t> ofMesh;  // by vertex of the mesh; those no triangle uses stay out
   constexpr uint32_t kNone = 0xffffffffu;
   for (const Instance& instance : scene.instances) {
@@ -121,9 +136,9 @@ SampleMesh weldedMesh(const Scene& scene) {
       for (int k = 0; k < 3; ++k) {
         uint32_t& vertex = ofMesh[corners[k]];
         if (vertex == kNone) {
-          // Adding zero makes of -0 a 0, which is equal but has other bits.
-          const Vec3f p = instance.toWorld.point(mesh.positions[corners[k]]) + Vec3f(0.f);
-          const auto [at, isNew] = known.try_emplace(p, static_cast<uint32_t>(positions.size()));
+          const Vec3f p = instance.toWorld.point(mesh.positions[corners[k]]);
+          const auto [at, isNew] =
+              known.try_emplace(keyOf(p), static_cast<uint32_t>(positions.size()));
           if (isNew) positions.push_back(p);
           vertex = at->second;
         }

@@ -99,10 +99,10 @@ class Subdivider {
     judge();
     if (context_.cancelled()) throw Cancelled{};
     const bool whole = limit();
-    const size_t before = mesh_.positions().size();
+    firstNew_ = mesh_.positions().size();
     close();
     split();
-    return whole && mesh_.positions().size() > before;
+    return whole && mesh_.positions().size() > firstNew_;
   }
   SampleMesh take() { return std::move(mesh_); }
 
@@ -134,7 +134,9 @@ class Subdivider {
       for (size_t i = begin; i < end; ++i) {
         Edge& e = table_.edges[i];
         const float size = lengthOf(e);
-        if (!(size > kShortest) || e.a == e.b) continue;
+        const bool judged =
+            e.b < firstNew_;  // of vertices that are there for longer: it stayed whole
+        if (!(size > kShortest) || e.a == e.b || judged) continue;
         const LeafBits a = look(&rays, faces.at(e.a)), b = look(&rays, faces.at(e.b)),
                        middle = look(&rays, placesOfMiddle(e));
         const float wrong = difference(a, b, middle) * size;
@@ -242,6 +244,7 @@ class Subdivider {
   Context& context_;
   const float diagonal_;
   const size_t mostVertices_;
+  size_t firstNew_ = 0;  // vertices from here on were added by the last round
   std::vector<LeafTriangle> triangles_;
   EdgeTable table_;
 };

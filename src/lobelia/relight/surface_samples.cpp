@@ -20,7 +20,10 @@ namespace lobelia::relight {
 namespace {
 
 constexpr uint64_t kStream = 0x73757266;  // of the surfaces' random numbers
-constexpr size_t kCandidates = 5;         // for every sample wanted [Yuksel15 section 3]
+// Cosine of the angle between normals beyond which places do not see each other. Both sides of a
+// right angle do: samples would gather along edges.
+constexpr float kApart = -0.5f;
+constexpr size_t kCandidates = 5;  // for every sample wanted [Yuksel15 section 3]
 
 // Triangles of all instances with the area they add; both sides of those that scatter behind.
 struct AreaTable {
@@ -82,7 +85,7 @@ std::vector<uint32_t> eliminated(const Places& places, double area, size_t count
   const float reach = static_cast<float>(2 * spread);
   const PointGrid grid(places.p, reach);
   const auto weight = [&](uint32_t i, uint32_t j) {
-    if (i == j || dot(places.n[i], places.n[j]) <= 0) return 0.f;
+    if (i == j || dot(places.n[i], places.n[j]) < kApart) return 0.f;
     const float close = 1 - length(places.p[i] - places.p[j]) / reach;
     return sqr(sqr(sqr(std::max(0.f, close))));
   };

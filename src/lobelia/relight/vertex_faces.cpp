@@ -35,14 +35,24 @@ void addLeaves(const SampleMesh& mesh, const SampleTriangle& triangle, const Lea
   }
 }
 
-// Puts the face first that is nearest to the mean of all normals.
+constexpr size_t kMostLeading = 8;
+
+bool turnedAway(std::span<const FacePlace> from, const FacePlace& face) {
+  return std::all_of(from.begin(), from.end(),
+                     [&](const FacePlace& f) { return dot(f.n, face.n) < 0.7071f; });
+}
+
+// Puts leading faces first.
 void order(std::span<FacePlace> faces) {
   Vec3f sum;
   for (const FacePlace& f : faces) sum += f.n;
   const auto best = std::max_element(
       faces.begin(), faces.end(),
       [&](const FacePlace& a, const FacePlace& b) { return dot(a.n, sum) < dot(b.n, sum); });
-  if (best != faces.end()) std::rotate(faces.begin(), best, best + 1);
+  if (best != faces.end()) std::iter_swap(faces.begin(), best);
+  size_t leading = 1;
+  for (size_t i = 1; i < faces.size() && leading < kMostLeading; ++i)
+    if (turnedAway(faces.first(leading), faces[i])) std::swap(faces[leading++], faces[i]);
 }
 
 }  // namespace
@@ -57,6 +67,14 @@ std::vector<LeafTriangle> leafTriangles(const SampleMesh& mesh) {
                 &leaves);
     }
   return leaves;
+}
+
+size_t leadingFaces(std::span<const FacePlace> faces) {
+  size_t count = std::min<size_t>(faces.size(), 1);
+  while (count < std::min(faces.size(), kMostLeading) &&
+         turnedAway(faces.first(count), faces[count]))
+    ++count;
+  return count;
 }
 
 FacePlace facePlace(const Scene& scene, const LeafTriangle& triangle, const Vec3f& weights,

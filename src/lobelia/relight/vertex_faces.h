@@ -4,8 +4,11 @@
 // no place off the surface that suits all of them: at the foot of a box one face looks along the
 // floor, at a room's edge a place behind the wall must not see the sky. Rays therefore start inside
 // of the faces, a little way from the vertex towards a face's middle, where the scene's own offset
-// keeps them off the surface (scene/shading.h). What a vertex sees in a direction is what a face
-// that looks there sees. (The paper does not say how its rays start.)
+// keeps them off the surface (scene/shading.h).
+//
+// What a vertex sees in a direction is what a face that looks there sees. Where edges are sharp,
+// faces can differ: the lower side of a box that stands on a plane, or is sunk into it, looks out
+// below it. There all have to see a direction. (The paper does not say how its rays start.)
 #pragma once
 
 #include <array>
@@ -53,6 +56,11 @@ class VertexFaces {
   std::vector<FacePlace> faces_;
   std::vector<uint32_t> begin_;
 };
+
+// How many of the faces around a vertex, the first ones, stand for all directions that these look
+// in: the one nearest to the mean of normals, then such as are turned away from those before by
+// more than 45 degrees, at most 8.
+size_t leadingFaces(std::span<const FacePlace> faces);
 
 // Vertices that share an edge with each vertex, ascending.
 class VertexNeighbours {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "lobelia/base/random.h"
 
@@ -17,6 +18,19 @@ constexpr int kMostLevel = 10, kLeastLevel = 5;
 uint32_t probeCount(int level) { return level >= 8 ? 8 : 4; }
 
 uint64_t bit(uint32_t leaf) { return uint64_t{1} << (leaf % 64); }
+
+// Bit i: flags[i], which is 0 or 1. The product moves the lowest bits of eight bytes into its top
+// byte, each to its place.
+uint64_t packed(const uint8_t (&flags)[64]) {
+  static_assert(std::endian::native == std::endian::little);
+  uint64_t bits = 0;
+  for (int i = 0; i < 8; ++i) {
+    uint64_t eight;
+    std::memcpy(&eight, flags + 8 * i, 8);
+    bits |= (eight * 0x0102040810204080u >> 56) << (8 * i);
+  }
+  return bits;
+}
 
 // The part of a word that a node of at most 64 leaves takes.
 uint64_t nodeMask(int level, uint32_t begin) {
@@ -67,22 +81,28 @@ VertexTracer::VertexTracer(const Tracer& tracer, const LightSamples& samples,
     if (directions_) continue;
     nx_[i] = samples.n[i].x, ny_[i] = samples.n[i].y, nz_[i] = samples.n[i].z;
   }
-  faceOf_.resize(padded), traced_.resize(padded / 64);
+  faceOf_.resize(padded), more_.resize(padded), traced_.resize(padded / 64);
 }
 
 // The samples of a word in front of a face (side 1) or behind it (-1) that send light there.
 uint64_t VertexTracer::facing(const FacePlace& face, float side, uint32_t word) const {
-  float front[64], sent[64];
   const size_t first = size_t{word} * 64;
-  const Vec3f n = face.n * side, o = directions_ ? Vec3f(0.f) : side > 0 ? face.front : face.back;
-  for (size_t i = 0; i < 64; ++i) {
-    const float dx = x_[first + i] - o.x, dy = y_[first + i] - o.y, dz = z_[first + i] - o.z;
-    front[i] = n.x * dx + n.y * dy + n.z * dz;
-    sent[i] = nx_[first + i] * dx + ny_[first + i] * dy + nz_[first + i] * dz;
+  const float *x = &x_[first], *y = &y_[first], *z = &z_[first];
+  const Vec3f n = face.n * side;
+  uint8_t flags[64];
+  if (directions_) {
+    for (size_t i = 0; i < 64; ++i) flags[i] = n.x * x[i] + n.y * y[i] + n.z * z[i] > 0;
+  } else {
+    const Vec3f o = side > 0 ? face.front : face.back;
+    const float *nx = &nx_[first], *ny = &ny_[first], *nz = &nz_[first];
+    for (size_t i = 0; i < 64; ++i) {
+      const float dx = x[i] - o.x, dy = y[i] - o.y, dz = z[i] - o.z;
+      const bool front = n.x * dx + n.y * dy + n.z * dz > 0;
+      const bool sent = nx[i] * dx + ny[i] * dy + nz[i] * dz < 0;
+      flags[i] = static_cast<uint8_t>(front & sent);
+    }
   }
-  uint64_t bits = 0;
-  for (size_t i = 0; i < 64; ++i)
-    bits |= uint64_t{front[i] > 0 && (directions_ || sent[i] < 0)} << i;
+  const uint64_t bits = packed(flags);
   return first + 64 > count_ ? bits & ((uint64_t{1} << (count_ - first)) - 1) : bits;
 }
 
@@ -96,11 +116,17 @@ void VertexTracer::prepare(std::span<const FacePlace> faces, LeafBits* bits) {
   faces_ = faces.first(std::min(faces.size(), kMostFaces));
   const auto both =
       std::find_if(faces_.begin(), faces_.end(), [](const FacePlace& f) { return f.bothSides; });
+  const size_t leading = leadingFaces(faces_);
+  several_ = leading > 1;
+  if (several_) std::fill(more_.begin(), more_.end(), uint8_t{0});
   for (uint32_t w = 0; w < bits->wordCount(); ++w) {
     uint64_t left = ~uint64_t{0};
-    for (size_t f = 0; f < faces_.size() && left != 0; ++f) {
-      const uint64_t mine = left & facing(faces_[f], 1, w);
-      assign(mine, w, static_cast<uint8_t>(f));
+    for (size_t f = 0; f < faces_.size() && (left != 0 || f < leading); ++f) {
+      const uint64_t mine = facing(faces_[f], 1, w);
+      assign(mine & left, w, static_cast<uint8_t>(f));
+      for (uint64_t also = f < leading ? mine & ~left : 0; also != 0; also &= also - 1)
+        more_[w * 64 + static_cast<uint32_t>(std::countr_zero(also))] |=
+            static_cast<uint8_t>(1u << f);
       left &= ~mine;
     }
     if (both != faces_.end() && left != 0) {
@@ -112,7 +138,7 @@ void VertexTracer::prepare(std::span<const FacePlace> faces, LeafBits* bits) {
   }
 }
 
-void VertexTracer::push(uint32_t leaf, LeafBits* bits) {
+void VertexTracer::setLane(uint32_t leaf) {
   const FacePlace& face = faces_[faceOf_[leaf] & ~kBehind];
   const Vec3f o = (faceOf_[leaf] & kBehind) != 0 ? face.back : face.front;
   const Vec3f p{x_[leaf], y_[leaf], z_[leaf]};
@@ -121,13 +147,21 @@ void VertexTracer::push(uint32_t leaf, LeafBits* bits) {
   } else {
     packet_.set(lanes_, o, p);
   }
-  leafOf_[lanes_] = leaf;
-  traced_[leaf / 64] |= bit(leaf);
-  if (++lanes_ == ShadowPacket::kSize) flush(bits);
+  leafOf_[lanes_++] = leaf;
 }
 
-void VertexTracer::flush(LeafBits* bits) {
-  if (lanes_ == 0) return;
+void VertexTracer::push(uint32_t leaf, LeafBits* bits) {
+  if ((traced_[leaf / 64] & bit(leaf)) != 0) return;  // it was a probe
+  traced_[leaf / 64] |= bit(leaf);
+  queue(leaf, bits);
+}
+
+void VertexTracer::queue(uint32_t leaf, LeafBits* bits) {
+  setLane(leaf);
+  if (lanes_ == ShadowPacket::kSize) tracePacket(bits);
+}
+
+void VertexTracer::tracePacket(LeafBits* bits) {
   for (int i = lanes_; i < ShadowPacket::kSize; ++i) {
     packet_.set(i, Vec3f(0.f), Vec3f(0.f));
     packet_.active[i] = 0;
@@ -135,10 +169,27 @@ void VertexTracer::flush(LeafBits* bits) {
   uint32_t visible = tracer_.visible(packet_, true);
   for (; visible != 0; visible &= visible - 1) {
     const uint32_t leaf = leafOf_[std::countr_zero(visible)];
-    bits->visible[leaf / 64] |= bit(leaf);
+    if (several_ && more_[leaf] != 0) {
+      faceOf_[leaf] = static_cast<uint8_t>(std::countr_zero(more_[leaf]));
+      more_[leaf] &= static_cast<uint8_t>(more_[leaf] - 1);
+      again_.push_back(leaf);
+    } else {
+      bits->visible[leaf / 64] |= bit(leaf);
+    }
   }
   rays_ += static_cast<uint64_t>(lanes_);
   lanes_ = 0;
+}
+
+// Until all that was pushed is known.
+void VertexTracer::flush(LeafBits* bits) {
+  while (lanes_ > 0 || !again_.empty()) {
+    while (lanes_ < ShadowPacket::kSize && !again_.empty()) {
+      setLane(again_.back());
+      again_.pop_back();
+    }
+    tracePacket(bits);
+  }
 }
 
 void VertexTracer::pushAll(uint64_t leaves, uint32_t word, LeafBits* bits) {
@@ -183,12 +234,14 @@ void VertexTracer::forProbes(const Node& node, uint64_t key, const LeafBits& bit
   }
 }
 
-bool VertexTracer::confirmed(const Node& node, uint64_t key, const LeafBits& bits) const {
-  bool good = true;
-  forProbes(node, key, bits, [&](uint32_t leaf) {
-    good &= ((bits.visible[leaf / 64] & bit(leaf)) != 0) == node.visible;
+// Is no leaf of a node known to be otherwise?
+bool VertexTracer::confirmed(const Node& node, const LeafBits& bits) const {
+  uint64_t unlike = 0;
+  const uint64_t expected = node.visible ? ~uint64_t{0} : 0;
+  forWords(node.level, node.place, [&](uint32_t w, uint64_t mask) {
+    unlike |= (bits.visible[w] ^ expected) & traced_[w] & mask;
   });
-  return good;
+  return unlike == 0;
 }
 
 // Traces the leaves next to a traced one that are supposed to be what it is not.
@@ -211,7 +264,7 @@ void VertexTracer::followEdges(LeafBits* bits) {
     for (const uint32_t leaf : next_) pushUnlike(leaf, bits);
     for (const uint32_t leaf : fresh_) {
       bits->visible[leaf / 64] &= ~bit(leaf);
-      push(leaf, bits);
+      queue(leaf, bits);
     }
     flush(bits);
     next_.swap(fresh_);
@@ -231,7 +284,7 @@ void VertexTracer::traceAdaptively(std::span<const LeafBits* const> nearby, uint
     flush(bits);
     failed_.clear();
     for (const Node& node : expected_) {
-      if (!confirmed(node, key, *bits)) {
+      if (!confirmed(node, *bits)) {
         failed_.push_back(node);
       } else if (node.visible) {
         forWords(node.level, node.place,

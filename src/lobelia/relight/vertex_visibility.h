@@ -48,6 +48,9 @@ class VertexTracer {
   uint64_t facing(const FacePlace& face, float side, uint32_t word) const;
   void assign(uint64_t leaves, uint32_t word, uint8_t face);
   void push(uint32_t leaf, LeafBits* bits);
+  void queue(uint32_t leaf, LeafBits* bits);
+  void setLane(uint32_t leaf);
+  void tracePacket(LeafBits* bits);
   void flush(LeafBits* bits);
   void pushAll(uint64_t leaves, uint32_t word, LeafBits* bits);
   void visit(int level, uint32_t place, LeafBits* bits);
@@ -55,7 +58,7 @@ class VertexTracer {
   void forProbes(const Node& node, uint64_t key, const LeafBits& bits, const Use& use) const;
   void followEdges(LeafBits* bits);
   void pushUnlike(uint32_t leaf, LeafBits* bits);
-  bool confirmed(const Node& node, uint64_t key, const LeafBits& bits) const;
+  bool confirmed(const Node& node, const LeafBits& bits) const;
 
   const Tracer& tracer_;
   const SampleNeighbours* neighbours_;
@@ -63,7 +66,10 @@ class VertexTracer {
   const size_t count_;
   std::vector<float> x_, y_, z_, nx_, ny_, nz_;  // samples, padded to whole words
   std::span<const FacePlace> faces_;
-  std::vector<uint8_t> faceOf_;  // by leaf: number of the face, and kBehind
+  std::vector<uint8_t> faceOf_;  // by leaf: number of the face that is asked, and kBehind
+  std::vector<uint8_t> more_;    // by leaf: leading faces that have to see it, too, a bit each
+  bool several_ = false;         // are there any such?
+  std::vector<uint32_t> again_;  // leaves that one face sees and another is still to be asked about
   ShadowPacket packet_;
   uint32_t leafOf_[ShadowPacket::kSize] = {};
   int lanes_ = 0;

@@ -1,0 +1,149 @@
+// `lobelia view` as a user types it, on data of `lobelia precompute`.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/command_line.h"
+#include "lobelia/film/metrics.h"
+#include "lobelia/io/image_io.h"
+
+namespace lobelia::test {
+namespace {
+
+// A block on a floor under an even sky and a sun; material: of the block.
+std::string sceneText(const std::string& material, const std::string& emitters) {
+  return R"(<scene version="3.0.0">
+  <sensor type="perspective">
+    <float name="fov" value="40"/>
+    <transform name="to_world"><lookat origin="3, 4, 6" target="0, 0.4, 0" up="0, 1, 0"/></transform>
+    <film type="hdrfilm"><integer name="width" value="32"/><integer name="height" value="24"/>
+      <rfilter type="box"/></film>
+  </sensor>
+  )" + emitters +
+         R"(
+  <shape type="rectangle">
+    <transform name="to_world"><scale value="2"/><rotate x="1" angle="-90"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0.6, 0.5, 0.4"/></bsdf>
+  </shape>
+  <shape type="cube">
+    <transform name="to_world"><scale value="0.5"/><translate y="0.55"/></transform>
+    )" + material +
+         R"(
+  </shape>
+</scene>)";
+}
+constexpr const char* kSky =
+    R"(<emitter type="constant"><rgb name="radiance" value="0.5, 0.7, 1"/></emitter>)";
+constexpr const char* kSun = R"(<emitter type="directional"><vector name="direction"
+  value="-0.4, -1, -0.3"/><rgb name="irradiance" value="2, 1.8, 1.5"/></emitter>)";
+constexpr const char* kDiffuse = R"(<bsdf type="diffuse"/>)";
+constexpr const char* kGlossy =
+    R"(<bsdf type="roughconductor"><float name="alpha" value="0.2"/></bsdf>)";
+
+class View : public testing::Test {
+ protected:
+  std::string file(const std::string& name) const { return folder_ / name; }
+
+  void write(const std::string& material, const std::string& emitters) {
+    writeText(file("scene.xml"), sceneText(material, emitters));
+  }
+  void precompute() {
+    const ProgramResult r =
+        runProgram("precompute " + file("scene.xml") +
+                   " --method cuts --samples 2048 --clusters 16 --quiet -o " + file("data"));
+    ASSERT_EQ(r.exitCode, 0) << r.err;
+  }
+  std::string command(const std::string& options, const std::string& name) const {
+    return "view " + file("scene.xml") + " --data " + file("data") + " --headless --quiet " +
+           options + " -o " + file(name);
+  }
+  Film view(const std::string& options, const std::string& name) const {
+    const ProgramResult r = runProgram(command(options, name));
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return io::readFilm(file(name));
+  }
+  Film reference() const {
+    const ProgramResult r =
+        runProgram("render " + file("scene.xml") +
+                   " --lights path --max-depth 2 --spp 256 --quiet -o " + file("reference.exr"));
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return io::readFilm(file("reference.exr"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+// One set of data, two materials and two lights.
+TEST_F(View, IsThePathTracersPictureUnderOtherLightsWithOtherMaterials) {
+  write(kDiffuse, kSky);
+  precompute();
+  for (const char* material : {kDiffuse, kGlossy})
+    for (const std::string& emitters : {std::string(kSky), std::string(kSky) + kSun}) {
+      write(material, emitters);
+      const Comparison c = compare(view("--spp 16", "view.exr"), reference());
+      EXPECT_NEAR(c.meanRatio, 1, 0.01) << material << emitters;
+      EXPECT_LT(c.l2, emitters == kSky ? 0.04 : 0.12) << material << emitters;
+    }
+}
+
+TEST_F(View, SameSeedSamePixelsForAnyNumberOfThreads) {
+  write(kGlossy, std::string(kSky) + kSun);
+  precompute();
+  const Film one = view("--spp 4 --threads 1 --seed 3", "one.exr");
+  const Film four = view("--spp 4 --threads 4 --seed 3", "four.exr");
+  EXPECT_EQ(one.layers.at("").values, four.layers.at("").values);
+  const Film other = view("--spp 4 --threads 4 --seed 4", "other.exr");
+  EXPECT_NE(one.layers.at("").values, other.layers.at("").values);
+}
+
+TEST_F(View, FramesTurnTheLightAndSayWhatTheyCost) {
+  write(kDiffuse, kSun);
+  precompute();
+  const ProgramResult r =
+      runProgram(command("--frames 3 --rotate-step 60 --stats " + file("stats.json"), "f%02d.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const Film first = io::readFilm(file("f00.exr")), last = io::readFilm(file("f02.exr"));
+  EXPECT_NE(first.layers.at("").values, last.layers.at("").values);
+  EXPECT_EQ(last.metadata.at("lobelia:frame"), "2");
+  EXPECT_EQ(last.layers.at("").values, view("--rotate 120", "turned.exr").layers.at("").values);
+  const nlohmann::json stats = nlohmann::json::parse(readText(file("stats.json")));
+  EXPECT_EQ(stats["counts"]["frames"], 3);
+  EXPECT_GT(stats["counts"]["evaluations_per_pixel"], 0);
+  EXPECT_GT(stats["counts"]["merged_nodes_per_vertex"], 0);
+  EXPECT_GT(stats["frames_per_second"], 0);
+  for (const char* stage : {"buffer", "light", "merge", "shade"})
+    EXPECT_GT(stats["seconds"][stage], 0) << stage;
+}
+
+TEST_F(View, RefusesWhatItCannotDraw) {
+  write(kDiffuse, kSky);
+  const std::string scene = "view " + file("scene.xml") + " --data " + file("data");
+  expectFailure(scene + " -o " + file("x.exr"), 2, "--headless");
+  expectFailure("view " + file("scene.xml") + " --headless -o " + file("x.exr"), 2, "--data");
+  expectFailure(scene + " --headless", 2, "--output");
+  expectFailure(scene + " --headless --light-cut 0 -o " + file("x.exr"), 2, "--light-cut");
+  expectFailure(scene + " --headless --rotate-step 3 -o " + file("x.exr"), 2, "--frames");
+  expectFailure(scene + " --headless --rotate nan -o " + file("x.exr"), 2, "--rotate");
+  expectFailure(scene + " --headless -o " + file("x.exr"), 3, file("data"));
+  writeText(file("data"), "no data");
+  expectFailure(scene + " --headless -o " + file("x.exr"), 3, file("data"));
+  precompute();
+  std::string moved = readText(file("scene.xml"));
+  moved.replace(moved.find("0.55"), 4, "0.75");
+  writeText(file("scene.xml"), moved);
+  expectFailure(scene + " --headless -o " + file("x.exr"), 3, file("data"));
+  EXPECT_FALSE(std::filesystem::exists(file("x.exr")));
+}
+
+TEST_F(View, SaysWhatItLeavesOut) {
+  write(kDiffuse, R"(<emitter type="point"><point name="position" value="0, 3, 0"/>
+    <rgb name="intensity" value="9"/></emitter>)");
+  precompute();
+  const ProgramResult r = runProgram("view " + file("scene.xml") + " --data " + file("data") +
+                                     " --headless -o " + file("dark.exr"));
+  EXPECT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_NE(r.err.find("no light from infinity"), std::string::npos) << r.err;
+}
+
+}  // namespace
+}  // namespace lobelia::test

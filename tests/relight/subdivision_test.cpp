@@ -1,0 +1,98 @@
+// Subdivided meshes have no cracks and vertices where shadows need them.
+#include "lobelia/relight/subdivision.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/relight/vertex_faces.h"
+#include "relight/scenes.h"
+
+namespace lobelia::relight {
+namespace {
+
+SampleMesh divided(const Scene& scene, int rounds, Context& context) {
+  const Tracer tracer(scene, context);
+  const std::vector<uint8_t> bothSides(scene.instances.size(), 0);
+  return subdivided(tracer, weldedMesh(scene), environmentSamples(256, 1), bothSides, rounds,
+                    context);
+}
+
+using Place = std::array<float, 3>;
+Place key(Vec3f p) { return {p.x, p.y, p.z}; }
+
+TEST(Subdivision, LeavesNoCracks) {
+  const Scene scene = test::ballScene(4);
+  Context context;
+  const SampleMesh mesh = divided(scene, 4, context);
+  ASSERT_GT(context.statistics.count("vertices_added"), 20u);
+  EXPECT_EQ(context.statistics.count("vertices_added"),
+            mesh.positions().size() - weldedMesh(scene).positions().size());
+  std::set<Place> places;
+  for (const Vec3f p : mesh.positions()) EXPECT_TRUE(places.insert(key(p)).second) << "twice";
+  // No vertex lies in the middle of an edge, and each edge inside of a surface has two triangles.
+  std::map<std::pair<uint32_t, uint32_t>, int> uses;
+  std::map<uint32_t, double> areas;
+  for (const LeafTriangle& t : leafTriangles(mesh)) {
+    const auto p = [&](size_t k) { return mesh.positions()[t.vertex[k]]; };
+    areas[t.instance] += 0.5 * double{length(cross(p(1) - p(0), p(2) - p(0)))};
+    for (size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(t.vertex[k], t.vertex[(k + 1) % 3]);
+      ++uses[{a, b}];
+      EXPECT_EQ(places.count(key((mesh.positions()[a] + mesh.positions()[b]) * 0.5f)), 0u);
+    }
+  }
+  for (const auto& [edge, count] : uses) {
+    const Vec3f a = mesh.positions()[edge.first], b = mesh.positions()[edge.second];
+    const bool border = a.z == 0 && b.z == 0 &&
+                        ((std::abs(a.x) == 1 && a.x == b.x) || (std::abs(a.y) == 1 && a.y == b.y));
+    EXPECT_EQ(count, border ? 1 : 2);
+  }
+  EXPECT_NEAR(areas[0], 4, 1e-5);
+}
+
+TEST(Subdivision, AddsVerticesWhereTheShadowIs) {
+  Context context;
+  const SampleMesh mesh = divided(test::ballScene(8), 3, context);
+  const size_t before = weldedMesh(test::ballScene(8)).positions().size();
+  size_t near = 0, far = 0;
+  for (const Vec3f p : mesh.positions().subspan(before))
+    (std::abs(p.x) < 0.8f && std::abs(p.y) < 0.8f ? near : far) += 1;
+  EXPECT_GT(near, 4 * far);
+}
+
+TEST(Subdivision, PlacesOfTheSceneAreFoundInIt) {
+  const Scene scene = test::ballScene(4);
+  Context context;
+  const SampleMesh mesh = divided(scene, 4, context);
+  for (int i = 0; i < 100; ++i) {
+    const float u = static_cast<float>(i % 10) / 10, v = static_cast<float>(i / 10) / 10 * (1 - u);
+    const Hit hit{0, u, v, 0, static_cast<uint32_t>(i) % 32};
+    const SurroundingVertices s = mesh.at(0, hit.triangle, u, v);
+    Vec3f p;
+    for (size_t k = 0; k < 3; ++k) p += mesh.positions()[s.vertex[k]] * s.weight[k];
+    EXPECT_LT(length(p - surfacePoint(scene, hit).p), 1e-5f);
+  }
+}
+
+TEST(Subdivision, LeavesAnOpenPlaneAlone) {
+  Scene scene;
+  test::place(scene, test::groundMesh(16));  // edges no longer than the scene's eighth
+  Context context;
+  EXPECT_EQ(divided(scene, 4, context).positions().size(), 17u * 17u);
+}
+
+TEST(Subdivision, IsTheSameForAnyNumberOfThreads) {
+  Context context;
+  const SampleMesh many = divided(test::ballScene(6), 3, context);
+  const ThreadLimit one(1);
+  const SampleMesh single = divided(test::ballScene(6), 3, context);
+  ASSERT_EQ(single.positions().size(), many.positions().size());
+  for (size_t v = 0; v < many.positions().size(); ++v)
+    ASSERT_EQ(single.positions()[v], many.positions()[v]);
+}
+
+}  // namespace
+}  // namespace lobelia::relight
