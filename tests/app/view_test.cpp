@@ -145,5 +145,55 @@ TEST_F(View, SaysWhatItLeavesOut) {
   EXPECT_NE(r.err.find("no light from infinity"), std::string::npos) << r.err;
 }
 
+// Every edit is seen in the frames after it, and equals what the scene renders with that edit.
+TEST_F(View, ScriptsChangeWhatFramesShow) {
+  write(R"(<bsdf type="diffuse" id="paint"/>)", kSky);
+  precompute();
+  writeText(file("red.xml"),
+            "<scene version=\"3.0.0\"><bsdf type=\"diffuse\" id=\"paint\">"
+            "<rgb name=\"reflectance\" value=\"0.8 0.1 0.1\"/></bsdf></scene>");
+  writeText(file("sun.xml"), std::string("<scene version=\"3.0.0\">") + kSun + "</scene>");
+  writeText(file("script.txt"),
+            "# a comment\n\nframe\ndesign red.xml  # of the block\nframe 2\n"
+            "camera 3,4,-6 0,0.4,0\nframe\ndesign sun.xml\nturn 30\nframe\n");
+  const ProgramResult r = runProgram(command("--script " + file("script.txt"), "s%02d.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const auto values = [&](int frame) {
+    return io::readFilm(file("s0" + std::to_string(frame) + ".exr")).layers.at("").values;
+  };
+  EXPECT_EQ(values(0), view("", "plain.exr").layers.at("").values);
+  EXPECT_NE(values(1), values(0));
+  EXPECT_EQ(values(1), view("--design " + file("red.xml"), "red.exr").layers.at("").values);
+  EXPECT_EQ(values(2), values(1));
+  EXPECT_NE(values(3), values(2));
+  EXPECT_NE(values(4), values(3));
+  EXPECT_FALSE(std::filesystem::exists(file("s05.exr")));
+}
+
+TEST_F(View, ScriptsSayWhatIsWrongAndWhere) {
+  write(R"(<bsdf type="diffuse" id="paint"/>)", kSky);
+  precompute();
+  const auto refused = [&](const std::string& script, const std::string& mentions) {
+    writeText(file("bad.txt"), script);
+    expectFailure(command("--script " + file("bad.txt"), "x.exr"), 3, mentions);
+  };
+  refused("frame\nframes 3\n", "bad.txt:2");
+  refused("frames 3\n", "did you mean 'frame'");
+  refused("rotate\nframe\n", "rotate DEGREES");
+  refused("rotate much\nframe\n", "'much' is not a finite number");
+  refused("frame 0\n", "a number from 1");
+  refused("camera 1,2 0,0,0\nframe\n", "three numbers");
+  refused("camera 1,2,3 1,2,3\nframe\n", "no direction");
+  refused("rotate 3\n", "has no frame");
+  refused("design none.xml\nframe\n", "none.xml");
+  writeText(file("bad.xml"),
+            "<scene version=\"3.0.0\"><bsdf type=\"diffuse\" id=\"pain\"/></scene>");
+  refused("design bad.xml\nframe\n", "did you mean 'paint'");
+  writeText(file("glass.xml"),
+            "<scene version=\"3.0.0\"><bsdf type=\"dielectric\" id=\"paint\"/></scene>");
+  refused("design glass.xml\nframe\n", "from behind");
+  expectFailure(command("--frames 2 --script " + file("bad.txt"), "x.exr"), 2, "--script");
+}
+
 }  // namespace
 }  // namespace lobelia::test

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <optional>
 
 #include "lobelia/app/frame_setup.h"
@@ -10,8 +11,10 @@
 #include "lobelia/app/option_checks.h"
 #include "lobelia/app/render_frame.h"
 #include "lobelia/app/signals.h"
+#include "lobelia/app/view_script.h"
 #include "lobelia/app/view_statistics.h"
 #include "lobelia/base/parallel.h"
+#include "lobelia/io/design.h"
 #include "lobelia/relight/frame.h"
 
 namespace lobelia::app {
@@ -24,6 +27,8 @@ void requireView(const ViewOptions& options) {
   }
   if (options.rotateStep != 0 && options.render.frames == 0)
     throw UsageError("--rotate-step: say for how many frames with --frames N");
+  if (!options.script.empty() && options.render.frames > 0)
+    throw UsageError("--script and --frames: a script says itself how many frames there are");
   requirePicture(options.render);
   requireFrames(options.render);
 }
@@ -65,18 +70,24 @@ class Frames {
       : options_(options),
         commandLine_(commandLine),
         context_(context),
+        script_(options.script.empty() ? std::vector<ScriptStep>() : readScript(options.script)),
         scene_(loadScene(options.render.scene, context)),
         plan_(planFrames(scene_, options.render, true)),
         data_(loadData(options.data, scene_, context)),
         tracer_(scene_, context),
-        emitters_(scene_, tracer_.bounds()) {
-    warnOfMissing(scene_, context);
-    const StageTimer timer(context, "prepare");
-    renderer_.emplace(tracer_, emitters_, data_);
+        rotation_(options.rotate) {
+    prepare();
   }
 
   void render() {
-    for (const Frame& frame : plan_) renderFrame(frame);
+    if (script_.empty()) {
+      for (const Frame& frame : plan_) {
+        rotation_ = options_.rotate + options_.rotateStep * frame.number;
+        renderFrame(frame);
+      }
+    } else {
+      play();
+    }
     context_.info(fmt::format("{:.2f} frames per second", framesPerSecond(context_.statistics)));
     if (context_.statistics.count("nonfinite") > 0)
       context_.warning(fmt::format("{} values are not finite; they are left out",
@@ -87,14 +98,58 @@ class Frames {
   }
 
  private:
+  void prepare() {
+    warnOfMissing(scene_, context_);
+    const StageTimer timer(context_, "prepare");
+    renderer_.reset();
+    emitters_.emplace(scene_, tracer_.bounds());
+    renderer_.emplace(tracer_, *emitters_, data_);
+  }
+
+  void play() {
+    using enum ScriptStep::Kind;
+    const bool several = frameCount(script_) > 1;
+    int number = 0;
+    for (const ScriptStep& step : script_) {
+      if (step.kind == rotate) rotation_ = step.degrees;
+      if (step.kind == turn) rotation_ += step.degrees;
+      if (step.kind == ScriptStep::Kind::camera) moveCamera(step.toWorld);
+      if (step.kind == design || step.kind == environment) change(step);
+      for (int i = 0; step.kind == frame && i < step.count; ++i, ++number)
+        renderFrame({number, chooseCamera(scene_, options_.render),
+                     several ? frameOptions(options_.render, number) : options_.render});
+    }
+  }
+  // The one that pictures are seen by.
+  void moveCamera(const Transform& toWorld) {
+    const std::string name = chooseCamera(scene_, options_.render).name;
+    const auto camera = std::find_if(scene_.cameras.begin(), scene_.cameras.end(),
+                                     [&](const Camera& c) { return c.name == name; });
+    camera->toWorld = toWorld;
+    camera->path.clear();
+  }
+  void change(const ScriptStep& step) {
+    io::ReadSettings settings;
+    settings.strict = options_.render.scene.strict;
+    if (step.kind == ScriptStep::Kind::design) {
+      io::applyDesign(step.file, settings, scene_, context_);
+    } else {
+      settings.environment = step.file;
+      io::applyEnvironment(scene_, settings);
+    }
+    for (const Finding& finding : validate(scene_))
+      if (finding.severity == Severity::error) throw InputError(step.where, finding.message);
+    relight::requireKnownSides(data_, scene_, step.where);
+    prepare();
+  }
+
   void renderFrame(const Frame& frame) {
     const int64_t start = nanosecondsNow();
     Film film = makeFilm(frame.camera, frame.options);
     film.layers.erase("direct");
     film.layers.erase("indirect");
     const relight::FrameLight light =
-        renderer_->light(options_.rotate + options_.rotateStep * frame.number,
-                         {.nodeCount = options_.lightCut}, context_);
+        renderer_->light(rotation_, {.nodeCount = options_.lightCut}, context_);
     renderer_->render(light, frame.camera,
                       {.spp = std::max(options_.render.spp, 1),
                        .refined = !options_.plainLobes,
@@ -102,18 +157,21 @@ class Frames {
                       film, context_);
     const double seconds = static_cast<double>(nanosecondsNow() - start) * 1e-9;
     setMetadata(film, scene_, frame.options, commandLine_, seconds);
-    if (options_.render.frames > 0) film.metadata["lobelia:frame"] = std::to_string(frame.number);
+    if (options_.render.frames > 0 || frameCount(script_) > 1)
+      film.metadata["lobelia:frame"] = std::to_string(frame.number);
     writeOutputs(film, frame.options, curve_, context_);
   }
 
   const ViewOptions& options_;
   const std::string& commandLine_;
   Context& context_;
-  const Scene scene_;
+  const std::vector<ScriptStep> script_;
+  Scene scene_;
   const std::vector<Frame> plan_;
   const relight::VisibilityData data_;
   const Tracer tracer_;
-  const EmitterSampler emitters_;
+  double rotation_;  // degrees
+  std::optional<EmitterSampler> emitters_;
   std::optional<relight::FrameRenderer> renderer_;
   std::optional<ToneCurve> curve_;  // of all PNG files
 };
@@ -125,6 +183,8 @@ void addViewOptions(CLI::App& c, ViewOptions& o) {
   c.add_option("--data", o.data, "Visibility of the scene, by `lobelia precompute`")
       ->type_name("FILE")
       ->required();
+  c.add_option("--script", o.script, "Camera moves, edits and frames, one a line (docs/manual.md)")
+      ->type_name("FILE");
   c.add_flag("--headless", o.headless, "Draw without a window (the only way so far)");
   c.add_option("-o,--output", o.render.outputs,
                "Picture to write: .exr (linear), .png (tone-mapped)")

@@ -12,6 +12,7 @@ namespace lobelia::app {
 struct ViewOptions {
   RenderOptions render;  // of which addViewOptions() sets what a frame needs
   std::string data;      // `lobelia precompute`
+  std::string script;    // view_script.h; "": none
   bool headless = false;
   size_t lightCut = 512;    // nodes
   double rotate = 0;        // of the environment, degrees

@@ -31,6 +31,10 @@ bool scattersBehind(const Scene& scene, MaterialHandle material);
 // and cameras may change.
 uint64_t geometryHash(const Scene& scene);
 
+// Throws InputError, at `where`, when a material has come to scatter on both sides where only the
+// front is known.
+void requireKnownSides(const VisibilityData& data, const Scene& scene, const Location& where);
+
 void save(const VisibilityData& data, const Scene& scene, const std::string& file);
 // Throws InputError: of other geometry, damaged, another version; or a material that has come to
 // scatter on both sides where only the front is known.

@@ -189,17 +189,20 @@ VisibilityData load(const std::string& file, const Scene& scene) {
   data.bothSides = reader.get<uint8_t>("both-sides");
   if (data.bothSides.size() != scene.instances.size())
     damaged(file, "the list of two-sided surfaces does not fit the scene");
+  requireKnownSides(data, scene, {file});
+  return data;
+}
+
+void requireKnownSides(const VisibilityData& data, const Scene& scene, const Location& where) {
   for (size_t i = 0; i < data.bothSides.size(); ++i) {
     const Instance& instance = scene.instances[i];
     if (data.bothSides[i] == 0 && scattersBehind(scene, instance.material)) {
-      throw InputError({file},
-                       fmt::format("the surface '{}' has come to scatter light from behind, "
-                                   "where its visibility is not known; make it again with "
-                                   "`lobelia precompute`",
-                                   instance.name));
+      throw InputError(where, fmt::format("the surface '{}' has come to scatter light from behind, "
+                                          "where its visibility is not known; make it again with "
+                                          "`lobelia precompute`",
+                                          instance.name));
     }
   }
-  return data;
 }
 
 }  // namespace lobelia::relight
