@@ -112,6 +112,19 @@ TEST(Precompute, IgnoringTheHorizonShortensCuts) {
   EXPECT_LT(3 * ignored.cuts.nodes().size(), 2 * kept.cuts.nodes().size());
 }
 
+TEST(Precompute, TakesFewSamplesToo) {
+  for (const size_t count : {2, 32, 64, 128}) {
+    Context context;
+    PrecomputeSettings settings;
+    settings.sampleCount = count, settings.sigma = 0;
+    const VisibilityData data = precomputed(test::ballScene(4), settings, context);
+    ASSERT_EQ(data.samples.count(), count);
+    EXPECT_NEAR(context.statistics.value("cut_rms"), 0, 1e-9) << count;
+    EXPECT_GE(data.cuts.nodes().size(), data.cuts.count());
+    EXPECT_LE(data.cuts.nodes().size(), data.cuts.count() * count);
+  }
+}
+
 TEST(Precompute, StopsWhenCancelled) {
   Context context;
   const Scene scene = test::ballScene();
