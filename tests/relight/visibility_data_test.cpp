@@ -184,6 +184,24 @@ TEST_F(VisibilityFile, IsOfOneGeometry) {
   expectRefused(changed, "other geometry");
 }
 
+TEST_F(VisibilityFile, IsOfOneFrontAndOneMask) {
+  Scene changed = scene_;
+  for (Vec3f& n : changed.meshes[1].normals) n = -n;  // they say which side is the front
+  expectRefused(changed, "other geometry");
+  changed = scene_;
+  Material mask;
+  mask.type = MaterialType::mask;
+  mask.a = changed.instances[1].material;
+  mask.opacity = 0.5f;
+  changed.instances[1].material = test::addMaterial(changed, mask);
+  expectRefused(changed, "masks");
+  Context context;
+  save(precomputed(changed, {}, context), changed, file_);
+  EXPECT_NO_THROW(load(file_, changed));
+  changed.materials.back().opacity = 0.25f;
+  expectRefused(changed, "masks");
+}
+
 TEST_F(VisibilityFile, KnowsOneSideWhereOneWasOpaque) {
   Scene changed = scene_;
   changed.instances[1].material = test::addTwoSided(changed);
