@@ -112,6 +112,19 @@ TEST(Precompute, IgnoringTheHorizonShortensCuts) {
   EXPECT_LT(3 * ignored.cuts.nodes().size(), 2 * kept.cuts.nodes().size());
 }
 
+TEST(Precompute, TakesFewSamplesToo) {
+  for (const size_t count : {2, 32, 64, 128}) {
+    Context context;
+    PrecomputeSettings settings;
+    settings.sampleCount = count, settings.sigma = 0;
+    const VisibilityData data = precomputed(test::ballScene(4), settings, context);
+    ASSERT_EQ(data.samples.count(), count);
+    EXPECT_NEAR(context.statistics.value("cut_rms"), 0, 1e-9) << count;
+    EXPECT_GE(data.cuts.nodes().size(), data.cuts.count());
+    EXPECT_LE(data.cuts.nodes().size(), data.cuts.count() * count);
+  }
+}
+
 TEST(Precompute, StopsWhenCancelled) {
   Context context;
   const Scene scene = test::ballScene();
@@ -169,6 +182,24 @@ TEST_F(VisibilityFile, IsOfOneGeometry) {
   changed = scene_;
   changed.instances.pop_back();
   expectRefused(changed, "other geometry");
+}
+
+TEST_F(VisibilityFile, IsOfOneFrontAndOneMask) {
+  Scene changed = scene_;
+  for (Vec3f& n : changed.meshes[1].normals) n = -n;  // they say which side is the front
+  expectRefused(changed, "other geometry");
+  changed = scene_;
+  Material mask;
+  mask.type = MaterialType::mask;
+  mask.a = changed.instances[1].material;
+  mask.opacity = 0.5f;
+  changed.instances[1].material = test::addMaterial(changed, mask);
+  expectRefused(changed, "masks");
+  Context context;
+  save(precomputed(changed, {}, context), changed, file_);
+  EXPECT_NO_THROW(load(file_, changed));
+  changed.materials.back().opacity = 0.25f;
+  expectRefused(changed, "masks");
 }
 
 TEST_F(VisibilityFile, KnowsOneSideWhereOneWasOpaque) {

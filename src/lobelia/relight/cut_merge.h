@@ -15,7 +15,7 @@
 //    (LightSums).
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -24,7 +24,7 @@ struct CellGrid {
     rows = finer * cellRows;
     perPower = std::max(1, std::min(columns / kColumns, rows / (kColumns / 2)));
   }
-  static constexpr int kColumns = 1024;
+  static constexpr int kColumns = 512;
 };
 
 class ImageLight {

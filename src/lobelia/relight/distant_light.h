@@ -19,9 +19,10 @@ struct DistantLight {
   std::vector<DirectedPower> powers;  // of all others
 };
 
-// Environments are cut into cells, at most some half a million each, whose light is as the path
-// tracer has it (EnvironmentSampler); a cell's direction is the mean of its light. Directional
-// emitters and suns are one direction each, with their irradiance. Other emitters are left out.
+// Environments are cut into cells, some 130,000 each (four for every sample that there is by
+// default), whose light is as the path tracer has it (EnvironmentSampler); a cell's direction is
+// the mean of its light. Directional emitters and suns are one direction each, with their
+// irradiance. Other emitters are left out.
 DistantLight distantLight(const Scene& scene);
 
 }  // namespace lobelia::relight

@@ -5,6 +5,8 @@
 // merge for each vertex, then pixel after pixel. Nothing of it leaves the caches of a core.
 #pragma once
 
+#include <memory>
+
 #include "lobelia/film/film.h"
 #include "lobelia/path/emitter_sampling.h"
 #include "lobelia/relight/frame_light.h"

@@ -17,10 +17,12 @@ struct Gathered {
 
 // Parts of the list, each with sums of its own: always as many, so that sums do not depend on the
 // number of threads.
-constexpr size_t kParts = 8;
+constexpr size_t kParts = 4;
 
 std::vector<Gathered> atSamples(const DistantLight& light, const Mat4& turned,
                                 const LightSamples& samples, const DirectionLookup& lookup) {
+  const Vec3f toX = turned.vector({1, 0, 0}), toY = turned.vector({0, 1, 0}),
+              toZ = turned.vector({0, 0, 1});
   std::array<std::vector<Gathered>, kParts> parts;
   const size_t count = light.powers.size(), each = (count + kParts - 1) / kParts;
   parallelFor(kParts, 1, [&](size_t part) {
@@ -29,7 +31,7 @@ std::vector<Gathered> atSamples(const DistantLight& light, const Mat4& turned,
     parts[part].resize(samples.count());
     for (size_t i = begin; i < end; ++i) {
       const DirectedPower& from = light.powers[i];
-      const Vec3f d = turned.vector(from.direction);
+      const Vec3f d = toX * from.direction.x + toY * from.direction.y + toZ * from.direction.z;
       Gathered& at = parts[part][lookup.nearest(d)];
       at.power += from.power;
       at.weighted += d * std::abs(luminance(from.power));

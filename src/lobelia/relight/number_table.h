@@ -1,6 +1,7 @@
 // A small hash table from numbers to numbers that is emptied and filled again and again.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 

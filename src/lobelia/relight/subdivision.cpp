@@ -117,10 +117,8 @@ class Subdivider {
     for (size_t i = 0; i < e.useCount; ++i) {
       const uint32_t use = table_.uses[e.firstUse + i];
       const LeafTriangle& t = triangles_[use / 3];
-      constexpr float kInside = 1.f / 16;
-      Vec3f weights(kInside / 3);
-      weights[static_cast<int>(use % 3)] += 0.5f * (1 - kInside);
-      weights[static_cast<int>((use % 3 + 1) % 3)] += 0.5f * (1 - kInside);
+      Vec3f weights(0.5f);
+      weights[static_cast<int>((use % 3 + 2) % 3)] = 0;
       places.push_back(facePlace(scene_, t, weights, bothSides_[t.instance] != 0));
     }
     return places;

@@ -80,7 +80,8 @@ size_t leadingFaces(std::span<const FacePlace> faces) {
 FacePlace facePlace(const Scene& scene, const LeafTriangle& triangle, const Vec3f& weights,
                     bool bothSides) {
   Vec2f b;
-  for (int k = 0; k < 3; ++k) b = b + triangle.corner[static_cast<size_t>(k)] * weights[k];
+  for (int k = 0; k < 3; ++k)
+    b = b + triangle.corner[static_cast<size_t>(k)] * (weights[k] * (1 - kInside) + kInside / 3);
   const SurfacePoint at = surfacePoint(scene, {0, b.x, b.y, triangle.instance, triangle.triangle});
   return {at.p + at.ng * at.error, at.p - at.ng * at.error, at.ng, bothSides};
 }
@@ -105,8 +106,8 @@ VertexFaces::VertexFaces(const Scene& scene, const SampleMesh& mesh,
   parallelFor(begin_.size() - 1, 256, [&](size_t v) {
     for (uint32_t i = begin_[v]; i < begin_[v + 1]; ++i) {
       const LeafTriangle& t = triangles[corners[i] / 3];
-      Vec3f weights(kInside / 3);
-      weights[static_cast<int>(corners[i] % 3)] += 1 - kInside;
+      Vec3f weights(0.f);
+      weights[static_cast<int>(corners[i] % 3)] = 1;
       faces_[i] = facePlace(scene, t, weights, bothSides[t.instance] != 0);
     }
     order({faces_.data() + begin_[v], faces_.data() + begin_[v + 1]});

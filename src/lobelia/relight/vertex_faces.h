@@ -37,7 +37,8 @@ struct FacePlace {
   Vec3f n;            // unit, as SurfacePoint::ng
   bool bothSides = false;
 };
-// Of a place of a triangle without children, by the weights of its corners.
+// A little inside of a triangle without children from the place that its corners' weights say (sum
+// 1).
 FacePlace facePlace(const Scene& scene, const LeafTriangle& triangle, const Vec3f& weights,
                     bool bothSides);
 

@@ -27,8 +27,8 @@ struct VisibilityData {
 // Does the material scatter light that arrives from behind the surface (two-sided, transmitting)?
 bool scattersBehind(const Scene& scene, MaterialHandle material);
 
-// Of all that the data depends on: meshes' places and triangles, and instances. Materials, emitters
-// and cameras may change.
+// Of all that the data depends on: meshes' places, normals and triangles, instances, and where
+// masks let rays pass. Other properties of materials, emitters and cameras may change.
 uint64_t geometryHash(const Scene& scene);
 
 // Throws InputError, at `where`, when a material has come to scatter on both sides where only the

@@ -142,22 +142,6 @@ LightSamples readSamples(const store::Reader& reader, const std::string& file) {
 
 }  // namespace
 
-uint64_t geometryHash(const Scene& scene) {
-  uint64_t hash = kVersion;
-  const auto add = [&](std::span<const std::byte> bytes) { hash = store::hashBytes(bytes, hash); };
-  for (const Mesh& mesh : scene.meshes) {
-    add(std::as_bytes(std::span(mesh.positions)));
-    add(std::as_bytes(std::span(mesh.triangles)));
-  }
-  for (const Instance& instance : scene.instances) {
-    add(std::as_bytes(std::span(&instance.mesh.index, 1)));
-    add(std::as_bytes(std::span(&instance.toWorld.to.m, 1)));
-    const uint8_t flipped = instance.flipNormals ? 1 : 0;
-    add(std::as_bytes(std::span(&flipped, 1)));
-  }
-  return hash;
-}
-
 void save(const VisibilityData& data, const Scene& scene, const std::string& file) {
   store::Writer writer(kKind, kVersion, geometryHash(scene));
   const std::vector<uint32_t> kind{static_cast<uint32_t>(data.samples.kind)};
@@ -175,8 +159,8 @@ VisibilityData load(const std::string& file, const Scene& scene) {
   const store::Reader reader(file, kKind, kVersion);
   if (reader.sceneHash() != geometryHash(scene)) {
     throw InputError({file},
-                     "this visibility is of other geometry (or the scene's shapes were changed "
-                     "since); make it again with `lobelia precompute`");
+                     "this visibility is of other geometry (or the scene's shapes or masks were "
+                     "changed since); make it again with `lobelia precompute`");
   }
   VisibilityData data;
   data.samples = readSamples(reader, file);
