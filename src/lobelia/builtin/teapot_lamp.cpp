@@ -31,7 +31,7 @@ class TeapotLamp : SceneBuilder {
     addCups();
     addTray();
     refine(scene(), 0.15f / detail());
-    addSpot({-2.2, 3.6, 2.6}, {0.05, 0.25, 0}, Rgb(62, 54, 44), 15, 27, "spot");
+    addSpot({-2.2, 3.6, 2.6}, {0.05, 0.25, 0}, Rgb(62, 54, 44), 15, 28, "spot");
     addPoint({1.9, 2.3, 1.3}, Rgb(5.5f, 6.2f, 7.4f), "lamp");
     addCamera("front", {0.55, 1.75, 4.3}, {0.10, 0.42, 0}, 38, 800, 600);
     scene().integrator = "path";
