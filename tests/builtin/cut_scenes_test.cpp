@@ -78,9 +78,9 @@ TEST_P(EveryCutScene, IsLitByTheKindOfLightItIsFor) {
 }
 
 constexpr CutScene kScenes[] = {
-    {"statue", 68e3, 0.11f, true},
-    {"machine", 112e3, 0.11f, true},
-    {"plants", 114e3, 0.068f, true},
+    {"statue", 68e3, 0.11f, true},   {"machine", 112e3, 0.11f, true},
+    {"plants", 114e3, 0.068f, true}, {"teapot-lamp", 86e3, 0.15f, false},
+    {"dining", 65e3, 0.37f, false},  {"bedroom", 105e3, 0.16f, false},
 };
 INSTANTIATE_TEST_SUITE_P(Figure9, EveryCutScene, testing::ValuesIn(kScenes),
                          [](const testing::TestParamInfo<CutScene>& entry) {

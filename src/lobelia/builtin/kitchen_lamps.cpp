@@ -74,12 +74,7 @@ void addDaylight(KitchenKit& kit) {
 }
 
 void addPoint(KitchenKit& kit, Vec3d at, Rgb intensity, const char* name) {
-  if (kit.lighting() != KitchenLighting::day) return;
-  Emitter point;
-  point.type = EmitterType::point;
-  point.radiance = intensity;
-  point.toWorld = Transform(translation(at));
-  kit.add(point, name);
+  if (kit.lighting() == KitchenLighting::day) kit.addPoint(at, intensity, name);
 }
 
 const Rgb kWarm(1.0f, 0.78f, 0.50f);

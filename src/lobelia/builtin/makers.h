@@ -31,5 +31,8 @@ Scene makeRoom(float detail);
 Scene makeStatue(float detail);
 Scene makeMachine(float detail);
 Scene makePlants(float detail);
+Scene makeTeapotLamp(float detail);
+Scene makeDining(float detail);
+Scene makeBedroom(float detail);
 
 }  // namespace lobelia::builtin

@@ -1,6 +1,6 @@
-// `room`: a dining room in the evening, lit by its own lamps, as the dining room of [P004], whose
-// lights are local too: a table laid for six, a sideboard, a lamp over the table, two at the wall
-// and candles. All of our own make.
+// `room` and `dining`: a dining room in the evening, lit by its own lamps, as the dining room of
+// [P004], whose lights are local too: a table laid for six, a sideboard, a lamp over the table, two
+// at the wall and candles. All of our own make.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "lobelia/builtin/flowers.h"
 #include "lobelia/builtin/makers.h"
 #include "lobelia/builtin/mesh_edit.h"
+#include "lobelia/builtin/refine.h"
 #include "lobelia/builtin/shapes.h"
 #include "lobelia/builtin/solids.h"
 #include "lobelia/builtin/sweep.h"
@@ -27,6 +28,7 @@ Scene DiningRoom::make() {
   addSideboard();
   addMirror();
   addLamps();
+  if (light_ == DiningLight::points) addPoints();
   addCurtains();
   addCamera("door", {1.85, 1.55, 2.45}, {-0.25, 0.88, -0.35}, 62, 800, 600);
   addCamera("table", {-1.0, 1.30, 1.55}, {0.15, 0.80, -0.1}, 45, 800, 600);
@@ -43,11 +45,12 @@ void DiningRoom::put(Mesh mesh, Vec3d at, MaterialHandle material, const std::st
   place(add(std::move(mesh), name), translation(at), material, name);
 }
 
-Emitter DiningRoom::lamp(Rgb radiance) const {
+EmitterHandle DiningRoom::glow(Rgb radiance, const std::string& name) {
+  if (light_ == DiningLight::points) return {};
   Emitter emitter;
   emitter.type = EmitterType::area;
   emitter.radiance = radiance;
-  return emitter;
+  return add(emitter, name);
 }
 
 void DiningRoom::addMaterials() {
@@ -71,11 +74,14 @@ void DiningRoom::addMaterials() {
   porcelain_ = add(coated(Rgb(0.76f, 0.75f, 0.72f), 0.08f), "porcelain");
   glaze_ = add(coated(Rgb(0.05f, 0.12f, 0.30f), 0.08f), "blue glaze");
   leather_ = add(coated(Rgb(0.26f, 0.055f, 0.035f), 0.28f), "leather");
-  crystal_ = add(glass(), "crystal");
+  // Cuts of visibility know no refraction.
+  crystal_ =
+      light_ == DiningLight::glow ? add(glass(), "crystal") : add(metal(kSilver, 0.18f), "pewter");
   linen_ = add(diffuse(Rgb(0.70f, 0.66f, 0.58f)), "linen");
   curtain_ = add(diffuse(Rgb(0.34f, 0.075f, 0.06f)), "curtain");
   wax_ = add(diffuse(Rgb(0.75f, 0.70f, 0.58f)), "wax");
-  black_ = add(diffuse(Rgb(0.f)), "light");
+  black_ = light_ == DiningLight::glow ? add(diffuse(Rgb(0.f)), "light")
+                                       : add(diffuse(Rgb(0.8f, 0.74f, 0.62f)), "milk glass");
 }
 
 void DiningRoom::addShell() {
@@ -172,10 +178,9 @@ void DiningRoom::addLamps() {
   put(cylinder(0.06f, 0.025f, 0.008f, 2, segments(40, 8)), {0, kHeight - 0.025, 0}, brass_,
       "lamp rose");
   const MeshHandle bulb = add(ball(0.045f, segments(24, 6), segments(36, 8)), "bulb");
-  place(bulb, translation({0, y + 0.10, 0}), black_, "bulb",
-        add(lamp(Rgb(150, 108, 62)), "table lamp"));
+  place(bulb, translation({0, y + 0.10, 0}), black_, "bulb", glow(Rgb(150, 108, 62), "table lamp"));
   // At the wall beside the mirror.
-  const EmitterHandle glow = add(lamp(Rgb(26, 18, 10)), "wall lamp");
+  const EmitterHandle shine = glow(Rgb(26, 18, 10), "wall lamp");
   const MeshHandle arm =
       add(tube(smoothCurve3(
                    {{0, -0.10f, 0}, {0, -0.13f, 0.06f}, {0, -0.10f, 0.11f}, {0, -0.03f, 0.12f}}),
@@ -193,8 +198,16 @@ void DiningRoom::addLamps() {
     place(arm, at, brass_, fmt::format("{} wall lamp, arm", side));
     place(cup, at * translation({0, 0, 0.12}), brass_, fmt::format("{} wall lamp, cup", side));
     place(globe, at * translation({0, 0.052, 0.12}), black_, fmt::format("{} wall lamp", side),
-          glow);
+          shine);
   }
+}
+
+void DiningRoom::addPoints() {
+  addSpot({0, 1.50, 0}, {0, 0, 0}, Rgb(7.5f, 5.6f, 3.5f), 40, 68, "table lamp");
+  for (const double x : {-0.85, 1.05})
+    addPoint({x, 1.86, kBack + 0.26}, Rgb(1.0f, 0.72f, 0.42f),
+             x < 0 ? "left wall lamp" : "right wall lamp");
+  addPoint({0, 2.15, 0.4}, Rgb(1.3f, 1.1f, 0.85f), "ceiling");
 }
 
 void DiningRoom::addCurtains() {
@@ -217,6 +230,13 @@ void DiningRoom::addCurtains() {
 }
 
 // The numbers of segments are for a closer look; a room of the paper's size needs fewer.
-Scene makeRoom(float detail) { return DiningRoom(0.62f * detail).make(); }
+Scene makeRoom(float detail) { return DiningRoom(0.62f * detail, DiningLight::glow).make(); }
+
+// Of the paper's number of vertices with those that walls and floor need, too.
+Scene makeDining(float detail) {
+  Scene scene = DiningRoom(0.475f * detail, DiningLight::points).make();
+  refine(scene, 0.37f / detail);
+  return scene;
+}
 
 }  // namespace lobelia::builtin

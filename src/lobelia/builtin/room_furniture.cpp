@@ -1,6 +1,7 @@
 // The furniture of the dining room: table, chairs, sideboard, mirror.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lobelia/builtin/dining_room.h"
@@ -18,7 +19,18 @@ Mesh DiningRoom::leg(float height, float thick) const {
                              {0.92f, 0.66f}, {0.55f, 0.70f}, {0.80f, 0.73f}, {0.55f, 0.76f},
                              {1.0f, 0.80f},  {1.0f, 0.99f},  {0.9f, 1.0f},   {0, 1.0f}};
   for (Vec2f& p : profile) p = {p.x * thick, p.y * height};
-  return revolve(smoothCurve(profile), segments(60, 15), segments(28, 8));
+  return turned(profile, segments(60, 15), segments(28, 8));
+}
+
+Mesh DiningRoom::turned(const std::vector<Vec2f>& profile, int rows, int around) const {
+  const auto curve = smoothCurve(profile);
+  if (light_ == DiningLight::glow) return revolve(curve, rows, around);
+  std::vector<Vec2f> points;
+  for (int i = 0; i <= rows; ++i) {
+    const Vec2f p = curve(fraction(i, rows));
+    points.push_back({std::max(p.x, 0.f), p.y});
+  }
+  return lathe(points, around, 60);
 }
 
 void DiningRoom::addTable() {
@@ -125,8 +137,9 @@ void DiningRoom::addSideboard() {
 
 // In a frame of brass.
 void DiningRoom::addMirror() {
-  Material mirror;
-  mirror.type = MaterialType::conductor;
+  Material mirror;  // of old silver, where mirrors cannot be followed
+  mirror.type =
+      light_ == DiningLight::glow ? MaterialType::conductor : MaterialType::roughConductor;
   mirror.eta = kSilver.eta, mirror.k = kSilver.k;
   put(extrude(ellipse(0.40f, 0.53f, segments(96, 16)), 0.01f), {0, 0, 0}, add(mirror, "mirror"),
       "mirror");

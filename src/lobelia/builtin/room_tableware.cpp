@@ -23,23 +23,23 @@ void DiningRoom::addPlaces() {
                                                     {0, 0.007f}}),
                                        segments(27, 9), segments(56, 12)),
                                "plate");
-  const MeshHandle goblet = add(revolve(smoothCurve({{0, 0},
-                                                     {0.030f, 0},
-                                                     {0.034f, 0.003f},
-                                                     {0.012f, 0.010f},
-                                                     {0.0045f, 0.022f},
-                                                     {0.0045f, 0.08f},
-                                                     {0.014f, 0.092f},
-                                                     {0.034f, 0.115f},
-                                                     {0.040f, 0.145f},
-                                                     {0.034f, 0.195f},
-                                                     {0.0333f, 0.197f},
-                                                     {0.0325f, 0.195f},
-                                                     {0.0385f, 0.145f},
-                                                     {0.0325f, 0.116f},
-                                                     {0.012f, 0.095f},
-                                                     {0, 0.094f}}),
-                                        segments(45, 15), segments(40, 10)),
+  const MeshHandle goblet = add(turned({{0, 0},
+                                        {0.030f, 0},
+                                        {0.034f, 0.003f},
+                                        {0.012f, 0.010f},
+                                        {0.0045f, 0.022f},
+                                        {0.0045f, 0.08f},
+                                        {0.014f, 0.092f},
+                                        {0.034f, 0.115f},
+                                        {0.040f, 0.145f},
+                                        {0.034f, 0.195f},
+                                        {0.0333f, 0.197f},
+                                        {0.0325f, 0.195f},
+                                        {0.0385f, 0.145f},
+                                        {0.0325f, 0.116f},
+                                        {0.012f, 0.095f},
+                                        {0, 0.094f}},
+                                       segments(45, 15), segments(40, 10)),
                                 "wine glass");
   const MeshHandle knife = add(block({0.010f, 0.0018f, 0.11f}, 0.0015f), "knife");
   const MeshHandle handle =
@@ -93,7 +93,7 @@ void DiningRoom::candle(Vec3d at, double height, const std::string& name) {
     flame_ =
         add(superellipsoid({0.0065f, 0.020f, 0.0065f}, 1.25f, 1, segments(14, 4), segments(16, 6)),
             "flame");
-    glow_ = add(lamp(Rgb(320, 190, 75)), "candle light");
+    glow_ = glow(Rgb(320, 190, 75), "candle light");
   }
   place(stick_, translation(at), silver_, name + ", stick");
   place(candle_, translation(at + Vec3d(0, 0.213, 0)) * scaling({1, height, 1}), wax_, name);

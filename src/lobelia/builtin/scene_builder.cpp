@@ -89,6 +89,27 @@ void SceneBuilder::addCamera(std::string name, Vec3d eye, Vec3d target, double f
   scene_.cameras.push_back(std::move(camera));
 }
 
+void SceneBuilder::addPoint(Vec3d at, Rgb intensity, std::string name) {
+  Emitter point;
+  point.type = EmitterType::point;
+  point.radiance = intensity;
+  point.toWorld = Transform(translation(at));
+  add(point, std::move(name));
+}
+
+void SceneBuilder::addSpot(Vec3d at, Vec3d target, Rgb intensity, double beamDegrees,
+                           double cutoffDegrees, std::string name) {
+  const Vec3d way = target - at;
+  const bool isUpright = std::abs(way.x) + std::abs(way.z) < 1e-3 * std::abs(way.y);
+  Emitter spot;
+  spot.type = EmitterType::spot;
+  spot.radiance = intensity;
+  spot.toWorld = Transform(*lookAt(at, target, isUpright ? Vec3d(0, 0, 1) : Vec3d(0, 1, 0)));
+  spot.beamWidth = static_cast<float>(beamDegrees * kPi / 180);
+  spot.cutoff = static_cast<float>(cutoffDegrees * kPi / 180);
+  add(spot, std::move(name));
+}
+
 Material SceneBuilder::diffuse(ColorParam color) {
   Material m;
   m.type = MaterialType::diffuse;

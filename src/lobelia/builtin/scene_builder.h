@@ -44,6 +44,12 @@ class SceneBuilder {
   void addCamera(std::string name, Vec3d eye, Vec3d target, double fovXDegrees, int width,
                  int height);
 
+  // Local lights; intensity in W/sr. A spot's light is full within `beamDegrees` of its axis and
+  // falls to nothing at `cutoffDegrees`.
+  void addPoint(Vec3d at, Rgb intensity, std::string name);
+  void addSpot(Vec3d at, Vec3d target, Rgb intensity, double beamDegrees, double cutoffDegrees,
+               std::string name);
+
   static Material diffuse(ColorParam color);
   // A GGX coat of roughness alpha over a diffuse base (lacquer, glaze, varnish).
   static Material coated(ColorParam color, FloatParam alpha);

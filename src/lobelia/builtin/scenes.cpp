@@ -52,9 +52,13 @@ constexpr BuiltinScene kBuiltins[] = {
     {"teapot-256", teapot<256>, 55800, "teapot, Phong exponent 256"},
     {"teapot-512", teapot<512>, 55800, "teapot, Phong exponent 512"},
     {"room", makeRoom, 144000, "A dining room lit by its lamps and candles [P004]"},
-    {"statue", makeStatue, 134000, "A statue in folds of cloth, in the light of a hall [P004]"},
+    {"statue", makeStatue, 136000, "A statue in folds of cloth, in the light of a hall [P004]"},
     {"machine", makeMachine, 218000, "A motorcycle in a studio [P004]"},
     {"plants", makePlants, 187000, "A table with potted plants and fruit [P004]"},
+    {"teapot-lamp", makeTeapotLamp, 176000, "A teapot and cups in the light of two lamps [P004]"},
+    {"dining", makeDining, 123000, "The dining room lit by a spot and point lights [P004]"},
+    {"bedroom", makeBedroom, 212000,
+     "A bedroom with daylight through its window and a lamp [P004]"},
     {"study-room", makeStudyRoom, 100354, "Closed wavy room for measuring rates of rays"},
 };
 

@@ -21,7 +21,7 @@ class Statue : SceneBuilder {
                          granite = add(coated(Rgb(0.10f, 0.085f, 0.08f), 0.10f), "granite"),
                          floor = add(coated(Rgb(0.34f, 0.31f, 0.27f), 0.28f), "floor");
     addPedestal(granite);
-    place(add(cupbearer(segments(168, 30)), "cupbearer"), translation({0, kPedestal, 0}), marble,
+    place(add(cupbearer(segments(164, 30)), "cupbearer"), translation({0, kPedestal, 0}), marble,
           "cupbearer");
     place(add(heightfield(6, 6, segments(80, 4), segments(80, 4), [](Vec2f) { return 0.f; }),
               "floor"),
