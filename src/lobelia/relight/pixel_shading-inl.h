@@ -86,10 +86,10 @@ struct LightSum {
 HWY_INLINE LightSum noLight() { return {{Vf(0.f), Vf(0.f), Vf(0.f)}, 0}; }
 
 // tags: a LobeTags, or a constant that converts to one, for which the compiler moves what depends
-// on wo alone out of the loop.
+// on wo alone out of the loop: if it has all of it at hand, which it has to be told.
 template <class Tags>
-LightSum sumLobeOf(Tags tags, const relight::LobeQuery& query, const relight::DirectedLight& light,
-                   const uint16_t* masks) {
+HWY_FLATTEN LightSum sumLobeOf(Tags tags, const relight::LobeQuery& query,
+                               const relight::DirectedLight& light, const uint16_t* masks) {
   const Lobe& lobe = *query.lobe;
   const ShadingFrame& frame = *query.frame;
   LobeParameters<Vf> p;

@@ -99,7 +99,8 @@ std::vector<uint32_t> eliminated(const Places& places, double area, size_t count
   for (uint32_t i = 0; i < total; ++i) heaviest.emplace(weights[i], i);
   std::vector<uint8_t> gone(total, 0);
   for (size_t left = total; left > count;) {
-    const auto [claimed, i] = heaviest.top();
+    const float claimed = heaviest.top().first;
+    const uint32_t i = heaviest.top().second;
     heaviest.pop();
     if (claimed > weights[i]) {
       heaviest.emplace(weights[i], i);
