@@ -155,7 +155,8 @@ TEST_F(View, ScriptsChangeWhatFramesShow) {
   writeText(file("sun.xml"), std::string("<scene version=\"3.0.0\">") + kSun + "</scene>");
   writeText(file("script.txt"),
             "# a comment\n\nframe\ndesign red.xml  # of the block\nframe 2\n"
-            "camera 3,4,-6 0,0.4,0\nframe\ndesign sun.xml\nturn 30\nframe\n");
+            "camera 3,4,-6 0,0.4,0\nframe\ndesign sun.xml\nturn 30\nframe\n"
+            "design red.xml\ndesign sun.xml\nrotate 1e308\nturn 1e308\nrotate 30\nframe\n");
   const ProgramResult r = runProgram(command("--script " + file("script.txt"), "s%02d.exr"));
   ASSERT_EQ(r.exitCode, 0) << r.err;
   const auto values = [&](int frame) {
@@ -167,7 +168,33 @@ TEST_F(View, ScriptsChangeWhatFramesShow) {
   EXPECT_EQ(values(2), values(1));
   EXPECT_NE(values(3), values(2));
   EXPECT_NE(values(4), values(3));
-  EXPECT_FALSE(std::filesystem::exists(file("s05.exr")));
+  EXPECT_EQ(values(5), values(4)) << "edits that come again";
+  EXPECT_FALSE(std::filesystem::exists(file("s06.exr")));
+  // The whole of what a person has made, but for the camera, in one design.
+  writeText(file("all.xml"),
+            std::string("<scene version=\"3.0.0\"><bsdf type=\"diffuse\" id=\"paint\">"
+                        "<rgb name=\"reflectance\" value=\"0.8 0.1 0.1\"/></bsdf>") +
+                kSun +
+                "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>"
+                "<transform name=\"to_world\"><lookat origin=\"3, 4, -6\" target=\"0, 0.4, 0\" "
+                "up=\"0, 1, 0\"/></transform></sensor></scene>");
+  EXPECT_EQ(values(4),
+            view("--rotate 30 --design " + file("all.xml"), "all.exr").layers.at("").values);
+}
+
+TEST_F(View, ScriptsMoveTheCameraThatPicturesAreSeenBy) {
+  write(kDiffuse, std::string(kSky) + "<sensor type=\"perspective\"/>");
+  precompute();
+  writeText(file("script.txt"), "frame\ncamera 3,4,6 0,0.4,0\nframe\n");
+  for (const char* camera : {"0", "1"}) {
+    const ProgramResult r = runProgram(
+        command(std::string("--size 32x24 --camera ") + camera + " --script " + file("script.txt"),
+                "c%d.exr"));
+    ASSERT_EQ(r.exitCode, 0) << r.err;
+    const bool same = io::readFilm(file("c0.exr")).layers.at("").values ==
+                      io::readFilm(file("c1.exr")).layers.at("").values;
+    EXPECT_EQ(same, *camera == '0');  // which is there already
+  }
 }
 
 TEST_F(View, ScriptsSayWhatIsWrongAndWhere) {
@@ -192,6 +219,16 @@ TEST_F(View, ScriptsSayWhatIsWrongAndWhere) {
   writeText(file("glass.xml"),
             "<scene version=\"3.0.0\"><bsdf type=\"dielectric\" id=\"paint\"/></scene>");
   refused("design glass.xml\nframe\n", "from behind");
+  writeText(file("mask.xml"),
+            "<scene version=\"3.0.0\"><bsdf type=\"mask\" id=\"paint\">"
+            "<float name=\"opacity\" value=\"0.5\"/>"
+            "<bsdf type=\"diffuse\"/></bsdf></scene>");
+  refused("frame\ndesign mask.xml\nframe\n", "bad.txt:2");
+  refused("frame\ndesign mask.xml\nframe\n", "masked out");
+  writeText(file("null.xml"),
+            "<scene version=\"3.0.0\"><bsdf type=\"null\" id=\"paint\"/></scene>");
+  refused("design null.xml\nframe\n", "bad.txt:1");
+  refused("environment none.exr\nframe\n", "bad.txt:1");
   expectFailure(command("--frames 2 --script " + file("bad.txt"), "x.exr"), 2, "--script");
 }
 

@@ -1,7 +1,10 @@
 // Virtual spherical Gaussian lights against the point lights that they stand for.
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "gather/random_input.h"
+#include "lobelia/gather/depth_maps.h"
 #include "lobelia/gather/gaussian.h"
 #include "lobelia/lights/cluster_sums.h"
 #include "lobelia/lobes/spherical_gaussian.h"
@@ -314,7 +317,10 @@ TEST(GaussianShadows, MapsComeToRaysWithTheirTexels) {
   GatherSettings settings;
   settings.direct = true;
   const auto gathered = [&](int texels, int rays) {
-    settings.depthMapTexels = texels, settings.shadowRays = rays;
+    std::optional<gather::DepthMaps> maps;
+    if (texels > 0) maps.emplace(tracer, lights, texels, context);
+    settings.depthMaps = maps ? &*maps : nullptr;
+    settings.shadowRays = rays;
     std::vector<Rgb> values(receivers.points.size());
     gatherAll(tracer, receivers, lights, settings, values, context);
     return values;
@@ -355,7 +361,10 @@ TEST(GaussianShadows, MapsDoNotShadowTheFloorThatTheyShow) {
   GatherSettings settings;
   settings.direct = true;
   const auto gathered = [&](int texels, int rays) {
-    settings.depthMapTexels = texels, settings.shadowRays = rays;
+    std::optional<gather::DepthMaps> maps;
+    if (texels > 0) maps.emplace(tracer, lights, texels, context);
+    settings.depthMaps = maps ? &*maps : nullptr;
+    settings.shadowRays = rays;
     std::vector<Rgb> values(receivers.points.size());
     gatherAll(tracer, receivers, lights, settings, values, context);
     return values;

@@ -88,6 +88,23 @@ TEST(Design, EmittersByTheirRoleOrName) {
   EXPECT_EQ(points, 1u);
 }
 
+// Whatever they are called.
+TEST(Design, EnvironmentsTakeTheirPlaceFirst) {
+  for (const char* name : {"panel", "lamp"}) {
+    const Scene scene = changed(std::string("<emitter type=\"constant\" id=\"") + name +
+                                "\"><rgb name=\"radiance\" value=\"3 2 1\"/></emitter>");
+    ASSERT_EQ(scene.emitters.size(), 3u);
+    size_t constants = 0;
+    for (const Emitter& e : scene.emitters)
+      constants += e.type == EmitterType::constant && e.radiance.value == Rgb(3, 2, 1) ? 1 : 0;
+    EXPECT_EQ(constants, 1u);
+    EXPECT_EQ(scene[scene.instances[1].emitter].type, EmitterType::area);
+  }
+  EXPECT_NE(refused("<emitter type=\"constant\"/>\n<emitter type=\"constant\"/>")
+                .find("second environment"),
+            std::string::npos);
+}
+
 TEST(Design, SensorsKeepTheFilmOfWhatTheyReplace) {
   const Scene replaced = changed(
       "<sensor type=\"perspective\" id=\"front\"><float name=\"fov\" value=\"40\"/></sensor>");

@@ -26,7 +26,6 @@ BandPlan planBands(const Tracer& tracer, const PixelSet& pixels, int maxDepth, s
   plan.gather.maxDepth = maxDepth;
   plan.gather.direct = options.direct == "lights";
   plan.gather.shadowRays = shadowRaysOf(options);
-  plan.gather.depthMapTexels = mapSizeOf(options);
 
   plan.eye.sampleCount = virtualLightSamples(options);
   plan.eye.maxDepth = maxDepth;

@@ -18,12 +18,11 @@ struct CutsStudy {
   Context& context;
   bool cancelled() const { return context.cancelled(); }
   void progress(const std::string& scene, const std::string& what) const;
-  // For this scene, 640 pixels wide unless the options say more; direct light unless they do.
+  // For this scene; direct light unless the options say more.
   BenchOptions optionsOf(const std::string& scene) const;
   size_t sampleCount() const;  // of directions; throws UsageError
 };
 
-inline constexpr int kCutsWidth = 640;
 inline constexpr size_t kPaperLightCuts[] = {128, 256, 512};
 
 Film emptyFrame(const Camera& camera);

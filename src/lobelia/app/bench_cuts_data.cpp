@@ -74,6 +74,7 @@ class DataStudy {
     const auto counted = [&](const char* name) { return static_cast<double>(s.count(name)); };
     const double rays = counted("shadow_rays"), nodes = counted("cut_nodes");
     const double vertices = counted("vertices");
+    study_.context.seed = options_.seed;
     const int64_t start = nanosecondsNow();
     const relight::VisibilityData data =
         relight::precomputeVisibility(tracer_, settings, study_.context);
@@ -125,7 +126,7 @@ class DataStudy {
     };
     frame(0);
     const int64_t start = nanosecondsNow();
-    for (int i = 1; i <= kFrames && !study_.cancelled(); ++i) frame(i);
+    for (int i = 1; i <= kFrames; ++i) frame(i);  // throws when cancelled
     const double seconds = secondsSince(start);
     scene_.materials = materials_;
     return kFrames / seconds;

@@ -8,7 +8,7 @@
 namespace lobelia::app {
 namespace {
 
-constexpr uint64_t kSeed = 41, kReferenceSeed = 42;
+constexpr uint64_t kReferenceSeed = 42;
 constexpr int kReferenceSamples = 1024, kFrameSamples = 16;
 constexpr size_t kLightCuts[] = {64, 128, 256, 512, 1024, 32768};
 
@@ -47,7 +47,7 @@ void cutsError(const std::string& name, const CutsStudy& study) {
   const Reference path = pathReference(scene, options.spp > 0 ? options.spp : kReferenceSamples,
                                        kReferenceSeed, study.context);
   if (study.cancelled()) return;
-  study.context.seed = kSeed;
+  study.context.seed = options.seed;
   study.progress(name, "precomputation");
   relight::PrecomputeSettings settings;
   settings.sampleCount = study.sampleCount();
@@ -76,7 +76,7 @@ void cutsError(const std::string& name, const CutsStudy& study) {
        study.report.picture(fmt::format("figure10-{}-path", name), path.first, curve)}};
   for (const size_t nodes : kLightCuts)
     for (const bool refined : {true, false}) {
-      if (study.cancelled()) return;
+      if (study.cancelled() || nodes > data.samples.count()) continue;
       study.progress(name, fmt::format("light cut of {}", nodes));
       Film film = emptyFrame(scene.camera());
       const relight::FrameLight light = renderer.light(0, {.nodeCount = nodes}, study.context);

@@ -292,4 +292,16 @@ void writeOutputs(const Film& film, const RenderOptions& options, std::optional<
   }
 }
 
+void requireNoInput(const std::vector<std::string>& outputs,
+                    const std::vector<std::string>& inputs) {
+  for (const std::string& output : outputs)
+    for (const std::string& input : inputs) {
+      std::error_code none;
+      if (output.empty() || input.empty() || !std::filesystem::is_regular_file(input, none))
+        continue;
+      if (std::filesystem::equivalent(output, input, none))
+        throw UsageError(fmt::format("'{}' would be written over what is read", output));
+    }
+}
+
 }  // namespace lobelia::app

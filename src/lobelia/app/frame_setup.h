@@ -31,6 +31,9 @@ void requireWritable(const std::string& file);
 // The same for a folder of files, which is made where it is not there yet.
 void requireWritableFolder(const std::string& folder);
 void requireOutputs(const RenderOptions& options);
+// Throws UsageError where a file would be written over one that is read. "" is no file.
+void requireNoInput(const std::vector<std::string>& outputs,
+                    const std::vector<std::string>& inputs);
 // curve: how PNG files are tone-mapped; empty: measured on this film, and kept for later ones.
 void writeOutputs(const Film& film, const RenderOptions& options, std::optional<ToneCurve>& curve,
                   Context& context);

@@ -32,6 +32,14 @@ std::pair<int, int> frameRange(const RenderOptions& options) {
   return {first, last};
 }
 
+RenderOptions optionsOf(const RenderOptions& options, int number) {
+  RenderOptions out = options;
+  for (std::string& file : out.outputs) file = frameFile(file, number);
+  for (std::string* file : {&out.stats, &out.checkpoint, &out.resume})
+    if (!file->empty()) *file = frameFile(*file, number);
+  return out;
+}
+
 double part(int number, int last) { return last > 0 ? static_cast<double>(number) / last : 0; }
 
 std::function<Camera(int)> turntable(const Scene& scene, const Camera& camera, int frames) {
@@ -94,14 +102,6 @@ std::string frameFile(const std::string& file, int number) {
                      extension);
 }
 
-RenderOptions frameOptions(const RenderOptions& options, int number) {
-  RenderOptions out = options;
-  for (std::string& file : out.outputs) file = frameFile(file, number);
-  for (std::string* file : {&out.stats, &out.checkpoint, &out.resume})
-    if (!file->empty()) *file = frameFile(*file, number);
-  return out;
-}
-
 void requireFrames(const RenderOptions& options) {
   if (options.frames == 0) {
     if (options.turntable) throw UsageError("--turntable: say in how many frames with --frames N");
@@ -112,7 +112,7 @@ void requireFrames(const RenderOptions& options) {
   const auto [first, last] = frameRange(options);
   if (!options.replay.empty() && first != last)
     throw UsageError("--replay is of one picture; say which with --frame K");
-  for (int number = first; number <= last; ++number) requireOutputs(frameOptions(options, number));
+  for (int number = first; number <= last; ++number) requireOutputs(optionsOf(options, number));
 }
 
 std::vector<Frame> planFrames(const Scene& scene, const RenderOptions& options,
@@ -122,7 +122,7 @@ std::vector<Frame> planFrames(const Scene& scene, const RenderOptions& options,
   const auto [first, last] = frameRange(options);
   std::vector<Frame> frames;
   for (int number = first; number <= last; ++number) {
-    frames.push_back({number, cameraOf(number), frameOptions(options, number)});
+    frames.push_back({number, cameraOf(number), optionsOf(options, number)});
     frames.back().camera.path.clear();
   }
   return frames;

@@ -18,8 +18,6 @@ struct Frame {
 // A frame's name of a file: its number in place of "%d", "%04d"..., or ".0012" before the
 // extension.
 std::string frameFile(const std::string& file, int number);
-// All of a frame's names of files.
-RenderOptions frameOptions(const RenderOptions& options, int number);
 // Wrong use that shows without the scene, outputs that cannot be written among it. Throws
 // UsageError.
 void requireFrames(const RenderOptions& options);

@@ -4,6 +4,7 @@
 
 #include "lobelia/app/gather_options.h"
 #include "lobelia/app/receiver_sample.h"
+#include "lobelia/app/vsgl_options.h"
 #include "lobelia/base/random.h"
 #include "lobelia/gather/gather_cuts.h"
 #include "lobelia/gather/gather_pairs.h"
@@ -157,6 +158,12 @@ LightGather::LightGather(const Tracer& tracer, const EmitterSampler& emitters, c
                                             richSettings(options, settings_), own, context);
     return nullptr;
   };
+  if (const int texels = mapSizeOf(options); texels > 0) {
+    if (!parts_.direct.gaussian.empty())
+      directMaps_.emplace(tracer, parts_.direct, texels, context);
+    if (!parts_.indirect.gaussian.empty() && options.component != "direct")
+      indirectMaps_.emplace(tracer, parts_.indirect, texels, context);
+  }
   direct_ = prepare(parts_.direct, 0);
   if (options.component != "direct") indirect_ = prepare(parts_.indirect, 1);
 }
@@ -170,8 +177,9 @@ LightGather::Light LightGather::gather(const Receivers& run,
   GatherSettings settings = settings_;
   settings.onlyPixel = onlyPixel;
   const auto add = [&](const VirtualLights& lights, const Prepared& prepared, size_t layer,
-                       std::vector<Rgb>* sum) {
+                       std::vector<Rgb>* sum, const std::optional<gather::DepthMaps>* maps) {
     if (lights.size() == 0) return;
+    settings.depthMaps = maps != nullptr && *maps ? &**maps : nullptr;
     std::optional<GatherParts>& parts = light.layers[layer] = wanted;
     if (prepared) {
       prepared->gather(run, onlyPixel, *sum, context, parts ? &*parts : nullptr);
@@ -179,11 +187,11 @@ LightGather::Light LightGather::gather(const Receivers& run,
       gatherAll(tracer_, run, lights, settings, *sum, context, parts ? &*parts : nullptr);
     }
   };
-  add(parts_.direct, direct_, 0, &light.direct);
-  add(parts_.nearDirect, {}, 1, &light.direct);
+  add(parts_.direct, direct_, 0, &light.direct, &directMaps_);
+  add(parts_.nearDirect, {}, 1, &light.direct, nullptr);
   if (options_.component == "direct") return light;
-  add(parts_.indirect, indirect_, 2, &light.indirect);
-  add(parts_.nearIndirect, {}, 3, &light.indirect);
+  add(parts_.indirect, indirect_, 2, &light.indirect, &indirectMaps_);
+  add(parts_.nearIndirect, {}, 3, &light.indirect, nullptr);
   return light;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lobelia/app/light_reduction.h"
+#include "lobelia/gather/depth_maps.h"
 #include "lobelia/gather/prepared_gather.h"
 
 namespace lobelia::app {
@@ -39,6 +40,8 @@ class LightGather {
   const GatherSettings settings_;
   const RenderOptions& options_;
   const LightParts parts_;
+  // Of direct and of indirect light, where shadows are looked up.
+  std::optional<gather::DepthMaps> directMaps_, indirectMaps_;
   // Of direct and of indirect light; none: all lights are gathered, or there are none.
   std::unique_ptr<gather::PreparedGather> direct_, indirect_;
 };

@@ -66,7 +66,9 @@ bool isBuiltin(const std::string& name) {
                                    name, fmt::join(names, ", "), suggestion(name, names)));
 }
 
-void report(const std::vector<Finding>& findings, Context& context) {
+}  // namespace
+
+void reportFindings(std::span<const Finding> findings, Context& context) {
   constexpr size_t shown = 10;
   size_t warnings = 0;
   for (const Finding& finding : findings) {
@@ -83,8 +85,6 @@ void report(const std::vector<Finding>& findings, Context& context) {
         fmt::format("{} more warnings; `lobelia info` lists them all", warnings - shown));
   }
 }
-
-}  // namespace
 
 Scene loadScene(const SceneOptions& options, Context& context) {
   const StageTimer timer(context, "load");
@@ -117,7 +117,7 @@ Scene loadScene(const SceneOptions& options, Context& context) {
   if (scene.cameras.empty()) {
     throw InputError({options.scene, 0, 0}, "the scene has no camera; add a <sensor>");
   }
-  report(scene.findings, context);
+  reportFindings(scene.findings, context);
   return scene;
 }
 

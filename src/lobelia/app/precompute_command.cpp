@@ -137,6 +137,8 @@ void run(const PrecomputeOptions& options, Context& context) {
   }
   context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);
   context.info(summary(options, context));
+  if (settingsOf(options).light == relight::LightSamples::Kind::surfaces)
+    context.warning("`lobelia view` draws with data of light from an environment only so far");
   if (options.stats.empty()) return;
   const std::string text = statisticsJson(options, scene, data, context).dump(2) + "\n";
   writeFileAtomically(options.stats, std::as_bytes(std::span<const char>(text)));
@@ -212,11 +214,16 @@ void addPrecomputeOptions(CLI::App& c, PrecomputeOptions& o) {
 ExitCode precompute(const PrecomputeOptions& options, const GlobalOptions& global) {
   if (options.method == "vmf") throw UsageError("--method vmf is not built yet; there is cuts");
   if (options.method != "cuts") {
-    throw UsageError(fmt::format("--method {}: there is cuts{}", options.method,
+    throw UsageError(fmt::format("--method '{}' is not known{}", options.method,
                                  suggestion(options.method, methodNames())));
   }
   for (const std::string& file : {options.output, options.stats})
     if (!file.empty()) requireWritable(file);
+  if (options.output == options.stats)
+    throw UsageError(
+        fmt::format("{} would be written twice; give each output its own name", options.output));
+  requireNoInput({options.output, options.stats},
+                 {options.scene.scene, options.scene.design, options.scene.environment});
   const ThreadLimit threads(global.threads);
   Console console(global.verbosity());
   Context context(&console);

@@ -4,8 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "lobelia/app/edited_scene.h"
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/option_checks.h"
@@ -14,7 +16,6 @@
 #include "lobelia/app/view_script.h"
 #include "lobelia/app/view_statistics.h"
 #include "lobelia/base/parallel.h"
-#include "lobelia/io/design.h"
 #include "lobelia/relight/frame.h"
 
 namespace lobelia::app {
@@ -25,10 +26,18 @@ void requireView(const ViewOptions& options) {
     throw UsageError(
         "this build draws without a window: add --headless, and -o FILE for the pictures");
   }
+  const RenderOptions& render = options.render;
+  if (!options.script.empty() &&
+      (options.rotateStep != 0 || render.frames > 0 || render.turntable || !render.frame.empty()))
+    throw UsageError(
+        "--frames, --frame, --turntable and --rotate-step do not go with --script: it says itself "
+        "what the frames are");
   if (options.rotateStep != 0 && options.render.frames == 0)
     throw UsageError("--rotate-step: say for how many frames with --frames N");
-  if (!options.script.empty() && options.render.frames > 0)
-    throw UsageError("--script and --frames: a script says itself how many frames there are");
+  std::vector<std::string> written = render.outputs;
+  written.push_back(render.stats);
+  requireNoInput(written, {options.data, options.script, render.scene.scene, render.scene.design,
+                           render.scene.environment});
   requirePicture(options.render);
   requireFrames(options.render);
 }
@@ -38,16 +47,30 @@ bool lightsFromNearby(EmitterType type) {
          type == EmitterType::projector || type == EmitterType::goniometric;
 }
 
-bool transmits(MaterialType type) {
-  return type == MaterialType::dielectric || type == MaterialType::thinDielectric ||
-         type == MaterialType::roughDielectric || type == MaterialType::diffuseTransmitter;
+bool transmits(const FloatParam& share) { return share.value > 0 || share.texture.valid(); }
+bool transmits(const Scene& scene, MaterialHandle handle) {
+  if (!handle.valid()) return false;
+  const Material& m = scene[handle];
+  switch (m.type) {
+    case MaterialType::dielectric:
+    case MaterialType::thinDielectric:
+    case MaterialType::roughDielectric:
+    case MaterialType::diffuseTransmitter:
+      return true;
+    case MaterialType::principled:
+    case MaterialType::metallicRoughness:
+      return transmits(m.specTrans);
+    default:
+      return transmits(scene, m.a) || transmits(scene, m.b);
+  }
 }
 
 void warnOfMissing(const Scene& scene, Context& context) {
-  size_t near = 0, clear = 0;
-  for (const Emitter& emitter : scene.emitters) near += lightsFromNearby(emitter.type) ? 1 : 0;
-  for (const Material& material : scene.materials) clear += transmits(material.type) ? 1 : 0;
-  if (near == scene.emitters.size())
+  const auto near = std::count_if(scene.emitters.begin(), scene.emitters.end(),
+                                  [](const Emitter& e) { return lightsFromNearby(e.type); });
+  const auto clear = std::count_if(scene.instances.begin(), scene.instances.end(),
+                                   [&](const Instance& i) { return transmits(scene, i.material); });
+  if (near == std::ssize(scene.emitters))
     context.warning("the scene has no light from infinity; add some with --environment or --sky");
   else if (near > 0)
     context.warning(
@@ -55,7 +78,7 @@ void warnOfMissing(const Scene& scene, Context& context) {
                     scene.emitters.size()));
   if (clear > 0)
     context.warning(
-        fmt::format("{} materials transmit light, of which only reflections are shown", clear));
+        fmt::format("{} surfaces transmit light, of which only reflections are shown", clear));
 }
 
 relight::VisibilityData loadData(const std::string& file, const Scene& scene, Context& context) {
@@ -71,18 +94,23 @@ class Frames {
         commandLine_(commandLine),
         context_(context),
         script_(options.script.empty() ? std::vector<ScriptStep>() : readScript(options.script)),
-        scene_(loadScene(options.render.scene, context)),
+        edited_(loadScene(options.render.scene, context), options.render.scene.strict),
+        scene_(edited_.scene()),
+        geometry_(relight::geometryHash(scene_)),
         plan_(planFrames(scene_, options.render, true)),
         data_(loadData(options.data, scene_, context)),
         tracer_(scene_, context),
         rotation_(options.rotate) {
+    warnOfMissing(scene_, context_);
     prepare();
   }
 
   void render() {
     if (script_.empty()) {
       for (const Frame& frame : plan_) {
-        rotation_ = options_.rotate + options_.rotateStep * frame.number;
+        rotation_ = std::fmod(
+            std::fmod(options_.rotate, 360) + std::fmod(options_.rotateStep, 360) * frame.number,
+            360);
         renderFrame(frame);
       }
     } else {
@@ -98,8 +126,8 @@ class Frames {
   }
 
  private:
+  // For the emitters that there are now.
   void prepare() {
-    warnOfMissing(scene_, context_);
     const StageTimer timer(context_, "prepare");
     renderer_.reset();
     emitters_.emplace(scene_, tracer_.bounds());
@@ -107,40 +135,49 @@ class Frames {
   }
 
   void play() {
-    using enum ScriptStep::Kind;
-    const bool several = frameCount(script_) > 1;
     int number = 0;
     for (const ScriptStep& step : script_) {
-      if (step.kind == rotate) rotation_ = step.degrees;
-      if (step.kind == turn) rotation_ += step.degrees;
-      if (step.kind == ScriptStep::Kind::camera) moveCamera(step.toWorld);
-      if (step.kind == design || step.kind == environment) change(step);
-      for (int i = 0; step.kind == frame && i < step.count; ++i, ++number)
-        renderFrame({number, chooseCamera(scene_, options_.render),
-                     several ? frameOptions(options_.render, number) : options_.render});
+      switch (step.kind) {
+        case ScriptStep::Kind::rotate:
+          rotation_ = std::fmod(step.degrees, 360);
+          break;
+        case ScriptStep::Kind::turn:
+          rotation_ = std::fmod(rotation_ + std::fmod(step.degrees, 360), 360);
+          break;
+        case ScriptStep::Kind::camera:
+          view_ = step.toWorld;
+          break;
+        case ScriptStep::Kind::design:
+        case ScriptStep::Kind::environment:
+          change(step);
+          break;
+        case ScriptStep::Kind::frame:
+          for (int i = 0; i < step.count; ++i) renderFrame(scriptFrame(number++));
+          break;
+      }
     }
   }
-  // The one that pictures are seen by.
-  void moveCamera(const Transform& toWorld) {
-    const std::string name = chooseCamera(scene_, options_.render).name;
-    const auto camera = std::find_if(scene_.cameras.begin(), scene_.cameras.end(),
-                                     [&](const Camera& c) { return c.name == name; });
-    camera->toWorld = toWorld;
-    camera->path.clear();
+  Frame scriptFrame(int number) const {
+    Frame frame{number, chooseCamera(scene_, options_.render), options_.render};
+    if (view_) frame.camera.toWorld = *view_;
+    frame.camera.path.clear();
+    for (std::string& file : frame.options.outputs)
+      if (frameCount(script_) > 1 || file.find('%') != std::string::npos)
+        file = frameFile(file, number);
+    return frame;
   }
   void change(const ScriptStep& step) {
-    io::ReadSettings settings;
-    settings.strict = options_.render.scene.strict;
-    if (step.kind == ScriptStep::Kind::design) {
-      io::applyDesign(step.file, settings, scene_, context_);
-    } else {
-      settings.environment = step.file;
-      io::applyEnvironment(scene_, settings);
+    const io::DesignParts parts = edited_.change(step, context_);
+    if (parts.cameras) view_.reset();
+    if (parts.materials) {
+      relight::requireKnownSides(data_, scene_, step.where);
+      if (relight::geometryHash(scene_) != geometry_)
+        throw InputError(step.where,
+                         "this changes which parts of surfaces are masked out, which "
+                         "the visibility has to know; make a scene with it and "
+                         "precompute that");
     }
-    for (const Finding& finding : validate(scene_))
-      if (finding.severity == Severity::error) throw InputError(step.where, finding.message);
-    relight::requireKnownSides(data_, scene_, step.where);
-    prepare();
+    if (parts.emitters) prepare();
   }
 
   void renderFrame(const Frame& frame) {
@@ -166,11 +203,14 @@ class Frames {
   const std::string& commandLine_;
   Context& context_;
   const std::vector<ScriptStep> script_;
-  Scene scene_;
+  EditedScene edited_;
+  const Scene& scene_;
+  const uint64_t geometry_;
   const std::vector<Frame> plan_;
   const relight::VisibilityData data_;
   const Tracer tracer_;
-  double rotation_;  // degrees
+  double rotation_;                // degrees
+  std::optional<Transform> view_;  // that a script gave the camera
   std::optional<EmitterSampler> emitters_;
   std::optional<relight::FrameRenderer> renderer_;
   std::optional<ToneCurve> curve_;  // of all PNG files
@@ -226,15 +266,16 @@ ExitCode view(const ViewOptions& options, const GlobalOptions& global,
   Context context(&console);
   context.seed = options.render.seed;
   const SignalGuard signals(context);
+  const int64_t start = nanosecondsNow();
+  std::optional<Frames> frames;
   try {
-    const int64_t start = nanosecondsNow();
-    Frames frames(options, commandLine, context);
-    frames.render();
-    context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);
-    frames.writeStatistics();
+    frames.emplace(options, commandLine, context);
+    frames->render();
   } catch (const Cancelled&) {
     context.warning("stopped; frames that were not finished are not written");
   }
+  context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);
+  if (frames) frames->writeStatistics();
   return signalExitCode();
 }
 

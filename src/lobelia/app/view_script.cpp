@@ -77,6 +77,8 @@ ScriptStep step(const Command& command, const std::vector<std::string>& values,
     case Kind::design:
     case Kind::environment:
       step.file = (folder / values[0]).string();
+      if (!std::filesystem::is_regular_file(step.file))
+        throw InputError(where, fmt::format("there is no file '{}'", step.file));
       break;
     case Kind::rotate:
     case Kind::turn:
@@ -97,23 +99,49 @@ ScriptStep step(const Command& command, const std::vector<std::string>& values,
   return step;
 }
 
+constexpr const char* kBlanks = " \t\r";
+
+// Without comment (a # at the beginning or after a blank) and blanks around it.
+std::string trimmed(std::string line) {
+  for (size_t at = line.find('#'); at != std::string::npos; at = line.find('#', at + 1))
+    if (at == 0 || std::string_view(kBlanks).find(line[at - 1]) != std::string_view::npos) {
+      line.resize(at);
+      break;
+    }
+  const size_t first = line.find_first_not_of(kBlanks);
+  if (first == std::string::npos) return {};
+  return line.substr(first, line.find_last_not_of(kBlanks) - first + 1);
+}
+
 std::vector<std::string> wordsOf(const std::string& line) {
-  std::istringstream in(line.substr(0, line.find('#')));
+  std::istringstream in(line);
   std::vector<std::string> words;
   for (std::string word; in >> word;) words.push_back(word);
   return words;
+}
+
+bool namesFile(Kind kind) { return kind == Kind::design || kind == Kind::environment; }
+
+// What may be shown of a word.
+std::string shown(const std::string& word) {
+  std::string out;
+  for (const char c : word.substr(0, 40)) out += c >= ' ' && c <= '~' ? c : '?';
+  return out;
 }
 
 }  // namespace
 
 std::vector<ScriptStep> readScript(const std::string& file) {
   std::ifstream in(file);
+  std::error_code none;
+  if (!std::filesystem::exists(file, none)) throw InputError({file}, "there is no such file");
   if (!in || std::filesystem::is_directory(file))
     throw InputError({file}, "cannot be read as a script");
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   std::vector<ScriptStep> script;
   std::string line;
   for (int row = 1; std::getline(in, line); ++row) {
+    line = trimmed(line);
     std::vector<std::string> words = wordsOf(line);
     if (words.empty()) continue;
     const Location where{file, row, 0};
@@ -123,8 +151,11 @@ std::vector<ScriptStep> readScript(const std::string& file) {
       for (const auto& [name, ignored] : commands()) known.push_back(name);
       throw InputError(where, fmt::format("unknown command '{}'{}; there are camera, design, "
                                           "environment, frame, rotate and turn",
-                                          words.front(), suggestion(words.front(), known)));
+                                          shown(words.front()), suggestion(words.front(), known)));
     }
+    // A file's name may have blanks.
+    if (namesFile(command->second.kind) && words.size() > 2)
+      words = {words.front(), line.substr(line.find_first_not_of(kBlanks, words.front().size()))};
     words.erase(words.begin());
     if (words.size() < command->second.least || words.size() > command->second.most)
       throw InputError(where, fmt::format("what is right here is: {}", command->second.usage));

@@ -6,7 +6,8 @@
 //   camera OX,OY,OZ TX,TY,TZ [UX,UY,UZ]  the camera at an origin, towards a target
 //   frame [N]                            so many frames (1)
 //
-// Empty lines and what follows a # mean nothing. Files are sought from the script's folder.
+// Empty lines and what follows a # (at the beginning or after a blank) mean nothing. Files are
+// sought from the script's folder; their names may have blanks.
 #pragma once
 
 #include <string>

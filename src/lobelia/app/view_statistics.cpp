@@ -52,18 +52,31 @@ void writeViewStatistics(const ViewOptions& options, const Scene& scene,
                    {"materials", scene.materials.size()},
                    {"emitters", scene.emitters.size()}};
   json["lights"] = {{"model", "environment"}, {"samples", data.samples.count()}};
+  for (const char* kind : {"omni", "directional", "diffuse", "glossy", "spherical", "vsgl"})
+    json["lights"][kind] = 0;
   json["gather"] = {
       {"strategy", "cuts"},
+      {"mode", options.plainLobes ? "plain" : "refined"},
+      {"bound", ""},
+      {"threshold", 0},
+      {"error", 0},
       {"light_cut", options.lightCut},
       {"vertices", data.cuts.count()},
       {"visibility_cut", ratio(static_cast<double>(data.cuts.nodes().size()), vertices)}};
-  for (const char* stage :
-       {"load", "accel", "data", "prepare", "light", "buffer", "merge", "shade", "total"})
+  json["receivers"] = {{"diffuse", 0}, {"glossy", 0}};
+  for (const char* stage : {"load", "accel", "data", "prepare", "light", "buffer", "merge", "shade",
+                            "total", "receivers", "lights", "trees", "traverse", "visibility"})
     json["seconds"][stage] = s.seconds(stage);
   json["counts"] = countsJson(s);
+  for (const char* count : {"shadow_rays", "rays_per_pixel", "node_pairs_visited",
+                            "node_pairs_shaded", "cut_nodes_per_pixel", "lights_per_light_node",
+                            "pixels_per_pixel_node", "specular_connections"})
+    json["counts"][count] = 0;
   json["frames_per_second"] = framesPerSecond(s);
   json["memory"] = {{"peak_bytes", static_cast<uint64_t>(usage.ru_maxrss) * 1024},
-                    {"embree_bytes", s.value("embree_bytes")}};
+                    {"embree_bytes", s.value("embree_bytes")},
+                    {"bytes_per_light", 0},
+                    {"bytes_per_receiver", 0}};
   const std::string text = json.dump(2) + "\n";
   writeFileAtomically(options.render.stats, std::as_bytes(std::span<const char>(text)));
 }

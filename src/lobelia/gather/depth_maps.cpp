@@ -1,5 +1,8 @@
 #include "lobelia/gather/depth_maps.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -67,6 +70,18 @@ class MapRays {
   uint64_t rays_ = 0;
 };
 
+void requireMemory(size_t needed, int texels) {
+  const double present =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (static_cast<double>(needed) <= present) return;
+  constexpr double kGiB = 1 << 30;
+  throw RuntimeError(
+      fmt::format("shadow maps of {} texels on a side need {:.0f} GiB for all lights and the "
+                  "machine has {:.0f}; "
+                  "ask for fewer texels or lights",
+                  texels, static_cast<double>(needed) / kGiB, present / kGiB));
+}
+
 }  // namespace
 
 Vec3f octahedralDirection(float u, float v) {
@@ -75,18 +90,28 @@ Vec3f octahedralDirection(float u, float v) {
   return {u - std::copysign(fold, u), v - std::copysign(fold, v), z};
 }
 
+size_t DepthMaps::bytes(int texels) {
+  const size_t whole = static_cast<size_t>(texels) * static_cast<size_t>(texels);
+  const size_t half = static_cast<size_t>(texels / 2) * static_cast<size_t>(texels / 2);
+  return sizeof(float) * (whole + (GaussianLight::kPlaces - 1) * half);
+}
+
 DepthMaps::DepthMaps(const Tracer& tracer, const VirtualLights& lights, int texels,
-                     const Context& context)
+                     Context& context)
     : texels_(texels) {
+  const StageTimer timer(context, "visibility");
+  requireMemory(lights.gaussian.size() * bytes(texels), texels);
   depths_.assign(first(lights.gaussian.size(), 0), 0.f);
   std::atomic<uint64_t> rays{0};
   parallelFor(lights.gaussian.size(), 1, [&](size_t i) {
     if (context.cancelled()) return;
     const PreparedGaussian light = prepareGaussian(lights.gaussian[i], lights.gaussianShading);
+    uint64_t own = 0;
     for (int place = 0; place < GaussianLight::kPlaces; ++place)
-      rays += MapRays(tracer, light, place, this->texels(place), &depths_[first(i, place)]).run();
+      own += MapRays(tracer, light, place, this->texels(place), &depths_[first(i, place)]).run();
+    rays += own;
   });
-  rays_ = rays;
+  context.statistics.addCount("shadow_rays", rays);
 }
 
 }  // namespace lobelia::gather

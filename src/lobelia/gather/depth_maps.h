@@ -18,26 +18,27 @@ namespace lobelia::gather {
 class DepthMaps {
  public:
   // Of all Gaussian lights; texels: on a side of the first place's map, at least 2, of the others'
-  // half of it. 7 texels² bytes a light. The same for any number of threads. When cancelled, maps
-  // may be missing.
-  DepthMaps(const Tracer& tracer, const VirtualLights& lights, int texels, const Context& context);
+  // half of it. The same for any number of threads. Counts "shadow_rays" and books seconds to
+  // "visibility". Throws RuntimeError where the machine has not so much memory. When cancelled,
+  // maps may be missing.
+  DepthMaps(const Tracer& tracer, const VirtualLights& lights, int texels, Context& context);
+  // Of one light.
+  static size_t bytes(int texels);
 
   int texels(int place) const { return place == 0 ? texels_ : texels_ / 2; }
   // [row][column], infinite where there is nothing, 0 where the light sends nothing.
   const float* of(size_t light, int place) const { return &depths_[first(light, place)]; }
-  uint64_t rays() const { return rays_; }
 
  private:
   size_t first(size_t light, int place) const {
     const size_t whole = static_cast<size_t>(texels_) * static_cast<size_t>(texels_);
     const size_t half = static_cast<size_t>(texels_ / 2) * static_cast<size_t>(texels_ / 2);
     const size_t own = place == 0 ? 0 : whole + static_cast<size_t>(place - 1) * half;
-    return light * (whole + (GaussianLight::kPlaces - 1) * half) + own;
+    return light * (bytes(texels_) / sizeof(float)) + own;
   }
 
   const int texels_;
   AlignedFloats depths_;
-  uint64_t rays_ = 0;
 };
 
 // Direction of the place (u, v) in [-1,1]² of an octahedral map [Cigolle14], not of unit length.

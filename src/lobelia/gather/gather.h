@@ -10,6 +10,7 @@
 namespace lobelia {
 
 namespace gather {
+class DepthMaps;
 class RichRadiance;
 }
 
@@ -24,9 +25,8 @@ struct GatherSettings {
   // Of spherical Gaussian lights, gatherAll() alone: shadow rays of a receiver, to lights chosen by
   // what they would send it (shadow_choice.h); 0: all is visible; below 0: one to every light.
   int shadowRays = -1;
-  // Of the same, by gatherAll() alone: shadow maps of so many texels on a side in place of rays
-  // (depth_maps.h); 0: none.
-  int depthMapTexels = 0;
+  // Of the same, by gatherAll() alone: shadow maps of the lights in place of rays; null: rays.
+  const gather::DepthMaps* depthMaps = nullptr;
   // Only the tiles that hold a receiver of this pixel are gathered (--replay): these get the
   // same bits, others the same or nothing.
   static constexpr uint32_t kAllPixels = 0xffffffffu;

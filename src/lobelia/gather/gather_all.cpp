@@ -22,7 +22,6 @@
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/base/random.h"
-#include "lobelia/gather/depth_maps.h"
 #include "lobelia/gather/facing_pairs.h"
 #include "lobelia/gather/gather.h"
 #include "lobelia/gather/kernels.h"
@@ -57,8 +56,6 @@ class TileGather {
         near_(lights, rangeForDepth(lights, LightClass::spherical, settings, 0).begin) {
     // Of the near field a tile prepares what reaches it.
     prepared_ = prepareLights(lights, tracer.scene(), !near_.used());
-    if (settings.depthMapTexels > 0 && !lights.gaussian.empty())
-      depthMaps_.emplace(tracer, lights, settings.depthMapTexels, context);
   }
 
   // False when cancelled before the end: then nothing was added to radiance.
@@ -85,8 +82,6 @@ class TileGather {
     return true;
   }
 
-  uint64_t mapRays() const { return depthMaps_ ? depthMaps_->rays() : 0; }
-
  private:
   bool addClass(const Tile& tile, LightClass lightClass, TileSums* sums, TileParts* parts,
                 Tally* tally) const {
@@ -109,7 +104,7 @@ class TileGather {
       prepare(lights_, tracer_.scene(), lightClass, first, count, &block, prepared_, wanted);
       if (settings_.rich != nullptr && lightClass == LightClass::diffuse)
         settings_.rich->unpack(&block);
-      if (depthMaps_) block.depthMaps = &*depthMaps_;
+      block.depthMaps = settings_.depthMaps;
       allowPairs(tile, block, lights_, settings_, &pairs);
       if (parts != nullptr) parts->watchRays(&pairs);
       const int64_t start = nanosecondsNow();
@@ -163,7 +158,6 @@ class TileGather {
   const Context& context_;
   const NearField near_;
   PreparedLights prepared_;
-  std::optional<DepthMaps> depthMaps_;
 };
 
 // Layers of values, [layer][point].
@@ -214,9 +208,7 @@ void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLi
   const size_t size = tilePoints(points);
   const size_t tiles = (points + size - 1) / size;
   if (parts != nullptr) parts->reset(points);
-  const int64_t start = nanosecondsNow();
   const TileGather tileGather(tracer, receivers, lights, settings, parts, context);
-  const double prepared = 1e-9 * static_cast<double>(nanosecondsNow() - start);
   std::atomic<uint64_t> rays{0}, pairs{0}, nonfinite{0};
   std::atomic<int64_t> visibilityNs{0}, shadeNs{0};
   std::atomic<size_t> done{0};
@@ -239,11 +231,10 @@ void gatherAll(const Tracer& tracer, const Receivers& receivers, const VirtualLi
     context.progress("gather", static_cast<double>(++done) / static_cast<double>(tiles));
   });
   const double toSeconds = 1e-9 / threadCount();
-  context.statistics.addCount("shadow_rays", rays + tileGather.mapRays());
+  context.statistics.addCount("shadow_rays", rays);
   context.statistics.addCount("node_pairs_shaded", pairs);
   context.statistics.addCount("nonfinite", nonfinite);
-  context.statistics.addSeconds("visibility",
-                                prepared + static_cast<double>(visibilityNs) * toSeconds);
+  context.statistics.addSeconds("visibility", static_cast<double>(visibilityNs) * toSeconds);
   context.statistics.addSeconds("shade", static_cast<double>(shadeNs) * toSeconds);
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "lobelia/io/mitsuba/reader.h"
 #include "lobelia/io/mitsuba/writer.h"
@@ -27,7 +28,7 @@ std::string nearest(const std::string& name, const std::vector<T>& items) {
   const std::vector<std::string> names = namesOf(items);
   const std::string hint = suggestion(name, names);
   if (!hint.empty()) return hint;
-  if (names.empty()) return "; none of them has a name";
+  if (names.empty()) return items.empty() ? "; it has none" : "; none of them has a name";
   constexpr size_t kShown = 12;
   std::string list;
   for (size_t i = 0; i < std::min(names.size(), kShown); ++i)
@@ -37,20 +38,38 @@ std::string nearest(const std::string& name, const std::vector<T>& items) {
 
 // Is this what an id names? Also as the scene is called when it is written as a file.
 bool isCalled(const std::string& name, const std::string& id) {
-  return !name.empty() && (name == id || cleanName(name) == id);
+  return !name.empty() && !id.empty() && (name == id || cleanName(name) == id);
 }
 
-// Do lights of these types exclude each other?
-bool sameRole(EmitterType a, EmitterType b) {
-  const auto surrounding = [](EmitterType t) {
-    return t == EmitterType::constant || t == EmitterType::environment;
-  };
-  return (surrounding(a) && surrounding(b)) || (a == EmitterType::sun && b == EmitterType::sun);
+// Of plugins: is there one such emitter in a scene?
+bool isSurrounding(const std::string& type) {
+  return type == "constant" || type == "envmap" || type == "sky" || type == "sunsky";
+}
+bool isSurrounding(EmitterType type) {
+  return type == EmitterType::constant || type == EmitterType::environment;
+}
+
+std::vector<Emitter> areaEmittersOf(const std::vector<Emitter>& emitters) {
+  std::vector<Emitter> of;
+  std::copy_if(emitters.begin(), emitters.end(), std::back_inserter(of),
+               [](const Emitter& e) { return e.type == EmitterType::area; });
+  return of;
+}
+
+// The emitter whose place a changed one takes: environments and suns that of their role, whatever
+// it is called; others that of their name.
+std::vector<Emitter>::iterator targetOf(const Emitter& changed, std::vector<Emitter>* emitters) {
+  const bool surrounding = isSurrounding(changed.type), sun = changed.type == EmitterType::sun;
+  return std::find_if(emitters->begin(), emitters->end(), [&](const Emitter& e) {
+    if (surrounding) return isSurrounding(e.type);
+    if (sun) return e.type == EmitterType::sun;
+    return isCalled(e.name, changed.name);
+  });
 }
 
 }  // namespace
 
-void Reader::change() {
+DesignParts Reader::change() {
   Object root = open(document_.scene);
   for (const char* tag : {"shape", "integrator"})
     for (const Element* e : root.nested(tag))
@@ -58,10 +77,21 @@ void Reader::change() {
                                              "and sensors of a scene",
                                              tag));
   for (const Element* e : root.nested("texture")) texture(*e);
-  changeMaterials(root.nested("bsdf"));
-  for (const Element* e : root.nested("emitter")) changeEmitter(*e);
-  for (const Element* e : root.nested("sensor")) changeSensor(*e);
+  const auto materials = root.nested("bsdf"), emitters = root.nested("emitter"),
+             sensors = root.nested("sensor");
+  changeMaterials(materials);
+  const Element* surrounding = nullptr;
+  for (const Element* e : emitters) {
+    if (isSurrounding(open(*e).type())) {
+      if (surrounding != nullptr)
+        throw InputError(e->where, "this is a second environment; a design can have one");
+      surrounding = e;
+    }
+    changeEmitter(*e);
+  }
+  for (const Element* e : sensors) changeSensor(*e);
   root.finish();
+  return {!materials.empty(), !emitters.empty(), !sensors.empty()};
 }
 
 void Reader::changeMaterials(const std::vector<const Element*>& elements) {
@@ -94,14 +124,13 @@ void Reader::changeEmitter(const Element& element) {
     emitter(element);
   }
   for (Emitter& changed : scene_.emitters) {
-    const auto target = std::find_if(before.begin(), before.end(), [&](const Emitter& e) {
-      return sameRole(e.type, changed.type) || isCalled(e.name, changed.name);
-    });
+    const auto target = targetOf(changed, &before);
     const bool onSurface = target != before.end() && target->type == EmitterType::area;
     if (area && !onSurface)
-      throw InputError(element.where, fmt::format("the scene has no area emitter '{}'{}; a design "
-                                                  "cannot make surfaces shine that do not",
-                                                  changed.name, nearest(changed.name, before)));
+      throw InputError(element.where,
+                       fmt::format("the scene has no area emitter '{}'{}; a design "
+                                   "cannot make surfaces shine that do not",
+                                   changed.name, nearest(changed.name, areaEmittersOf(before))));
     if (!area && onSurface)
       throw InputError(element.where, fmt::format("'{}' is an area emitter of the scene; only one "
                                                   "of type area can take its place",
@@ -130,11 +159,11 @@ void Reader::changeSensor(const Element& element) {
 
 }  // namespace mitsuba
 
-void applyDesign(const std::string& file, const ReadSettings& settings, Scene& scene,
-                 Context& context) {
+DesignParts applyDesign(const std::string& file, const ReadSettings& settings, Scene& scene,
+                        Context& context) {
   Findings findings(scene.findings, settings.strict);
   const mitsuba::Document document = mitsuba::loadDocument(file, settings.definitions, findings);
-  mitsuba::Reader(document, scene, settings.time, findings, context).change();
+  return mitsuba::Reader(document, scene, settings.time, findings, context).change();
 }
 
 }  // namespace lobelia::io

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "lobelia/io/design.h"
 #include "lobelia/io/mitsuba/object.h"
 #include "lobelia/io/scene_io.h"
 #include "lobelia/io/spectrum.h"
@@ -24,7 +25,7 @@ class Reader {
       : document_(document), scene_(scene), time_(time), findings_(findings), context_(context) {}
 
   void read();
-  void change();  // design.cpp: a scene that has been read
+  DesignParts change();  // design.cpp: a scene that has been read
 
  private:
   Object open(const Element& element) const { return {element, document_, findings_}; }
