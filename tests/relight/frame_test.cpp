@@ -55,6 +55,7 @@ TEST(Frame, DoesNotDependOnTheMemoryForVertices) {
   Stage stage;
   const std::vector<float> roomy = stage.picture({.spp = 3});
   const uint64_t once = stage.context.statistics.count("vertices_merged");
+  EXPECT_GT(stage.context.statistics.count("fine_chunks"), 0u);
   for (const size_t bytes : {size_t{1}, size_t{20000}}) {
     const uint64_t before = stage.context.statistics.count("vertices_merged");
     EXPECT_EQ(stage.picture({.spp = 3, .cacheBytes = bytes}), roomy) << bytes;
