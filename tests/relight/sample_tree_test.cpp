@@ -46,7 +46,8 @@ TEST(SampleTree, MeansAreThoseOfTheLeavesBelow) {
   for (int level = 0; level <= 6; ++level)
     for (size_t place = 0; place < size_t{64} >> level; ++place) {
       const auto begin = leaves.begin() + static_cast<std::ptrdiff_t>(place << level);
-      const float mean = std::accumulate(begin, begin + (1 << level), 0.f) / (1 << level);
+      const float mean =
+          std::accumulate(begin, begin + (1 << level), 0.f) / static_cast<float>(1 << level);
       EXPECT_NEAR(nodes[tree.heapIndex(level, place)], mean, 1e-6f);
     }
 }
