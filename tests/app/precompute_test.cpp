@@ -70,6 +70,7 @@ TEST(PrecomputeCommand, WrongUsageIsTwo) {
   expectFailure("precompute cornell --method cutz" + out, 2, "did you mean 'cuts'");
   expectFailure(kCornell + "--samples 1000" + out, 2, "power of two");
   expectFailure(kCornell + "--samples 65536" + out, 2, "--samples");
+  expectFailure(kCornell + "--samples 128" + out, 2, "from 256 to 32768");
   expectFailure(kCornell + "--clusters 3" + out, 2, "--clusters");
   expectFailure(kCornell + "--sigma -1" + out, 2, "--sigma");
   expectFailure(kCornell + "--sigma nan" + out, 2, "--sigma");

@@ -44,6 +44,22 @@ TEST(LobeReach, RoughnessIsRaisedToWhatSamplesResolve) {
   }
 }
 
+TEST(LobeReach, FewSamplesWidenNoLobeBeyondItsKind) {
+  Lobe widened;
+  for (int levels = 1; levels <= 6; ++levels)
+    for (const float alpha : {0.01f, 0.5f}) {
+      ASSERT_TRUE(lobeReach(glossy(LobeType::microfacetReflection, Distribution::ggx, alpha),
+                            levels, &widened));
+      EXPECT_LE(widened.alphaX, 1) << levels;
+      EXPECT_LE(widened.alphaY, 1) << levels;
+      ASSERT_TRUE(lobeReach(glossy(LobeType::phong, Distribution::ggx, alpha), levels, &widened));
+      EXPECT_GE(widened.alphaX, 0) << levels;
+    }
+  // What is broader by itself stays so.
+  lobeReach(glossy(LobeType::ward, Distribution::ggx, 1.5f), 2, &widened);
+  EXPECT_EQ(widened.alphaX, 1.5f);
+}
+
 TEST(LobeReach, MirrorsAreLobesOfLessThanHalfADegree) {
   EXPECT_FALSE(isMirror(Lobe{}));
   EXPECT_FALSE(isMirror(glossy(LobeType::microfacetReflection, Distribution::ggx, 0.02f)));

@@ -46,7 +46,8 @@ TEST(SampleTree, MeansAreThoseOfTheLeavesBelow) {
   for (int level = 0; level <= 6; ++level)
     for (size_t place = 0; place < size_t{64} >> level; ++place) {
       const auto begin = leaves.begin() + static_cast<std::ptrdiff_t>(place << level);
-      const float mean = std::accumulate(begin, begin + (1 << level), 0.f) / (1 << level);
+      const float mean =
+          std::accumulate(begin, begin + (1 << level), 0.f) / static_cast<float>(1 << level);
       EXPECT_NEAR(nodes[tree.heapIndex(level, place)], mean, 1e-6f);
     }
 }
@@ -63,12 +64,12 @@ TEST(SampleTree, ConesAndSpheresHoldTheirLeaves) {
         const size_t node = tree.heapIndex(level, leaf >> level);
         const Vec3f mean = tree.meanP[node];
         if (surfaces) {
-          EXPECT_LE(length(samples.p[leaf] - mean), tree.coneCosine[node] + 1e-6f);
+          EXPECT_LE(length(samples.p[leaf] - mean), tree.spread[node] + 1e-6f);
         } else {
-          EXPECT_GE(dot(samples.p[leaf], mean), tree.coneCosine[node] * length(mean) - 1e-6f);
+          EXPECT_GE(dot(samples.p[leaf], mean), tree.spread[node] * length(mean) - 1e-6f);
         }
       }
-    EXPECT_EQ(surfaces ? 0 : tree.coneCosine[tree.heapIndex(0, 3)] > 0.9999f, surfaces ? 0 : 1);
+    EXPECT_EQ(surfaces ? 0 : tree.spread[tree.heapIndex(0, 3)] > 0.9999f, surfaces ? 0 : 1);
   }
 }
 
@@ -119,7 +120,7 @@ TEST(TreeOrder, PutsDirectionsNextToTheirLike) {
   const SampleTree tree = makeSampleTree(reordered(samples, treeOrder(samples, {}, 0, 1, 1)));
   double sum = 0;
   for (size_t place = 0; place < 64; ++place)
-    sum += double{tree.coneCosine[tree.heapIndex(4, place)]} / 64;
+    sum += double{tree.spread[tree.heapIndex(4, place)]} / 64;
   // A disc of a 64th of the sphere has 0.969; the clusters are not round.
   EXPECT_GT(sum, 0.93);
 }

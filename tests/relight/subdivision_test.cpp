@@ -13,11 +13,19 @@
 namespace lobelia::relight {
 namespace {
 
-SampleMesh divided(const Scene& scene, int rounds, Context& context) {
+struct Warnings : Listener {
+  int count = 0;
+  void message(Severity severity, std::string_view) override {
+    count += severity == Severity::warning ? 1 : 0;
+  }
+  void progress(std::string_view, double) override {}
+};
+
+SampleMesh divided(const Scene& scene, int rounds, Context& context, size_t allowed = 20000) {
   const Tracer tracer(scene, context);
   const std::vector<uint8_t> bothSides(scene.instances.size(), 0);
   return subdivided(tracer, weldedMesh(scene), environmentSamples(256, 1), bothSides, rounds,
-                    context);
+                    context, allowed);
 }
 
 using Place = std::array<float, 3>;
@@ -82,6 +90,35 @@ TEST(Subdivision, LeavesAnOpenPlaneAlone) {
   test::place(scene, test::groundMesh(16));  // edges no longer than the scene's eighth
   Context context;
   EXPECT_EQ(divided(scene, 4, context).positions().size(), 17u * 17u);
+}
+
+TEST(Subdivision, AddsNoMoreVerticesThanItMay) {
+  Scene scene;
+  test::place(scene, test::groundMesh(4));
+  test::place(scene, test::sphereMesh(8, 4, true),
+              translation({0, 0, 0.5}) * scaling({0.3, 0.3, 0.3}));
+  const size_t before = weldedMesh(scene).positions().size();
+  Warnings roomy;
+  Context free(&roomy);
+  const size_t wanted = divided(scene, 6, free).positions().size() - before;
+  EXPECT_EQ(roomy.count, 0);
+  ASSERT_GT(wanted, before + 100);
+  for (const size_t allowed : {size_t{0}, before + 7, wanted - 1}) {
+    Warnings warnings;
+    Context context(&warnings);
+    const SampleMesh mesh = divided(scene, 6, context, allowed);
+    const size_t most = std::max(before, allowed), added = mesh.positions().size() - before;
+    EXPECT_LE(added, most);
+    EXPECT_GT(added, most * 8 / 10) << "room is used";
+    EXPECT_EQ(warnings.count, 1);
+  }
+  // With edges that all ask alike: a square whose edges are longer than an eighth of the scene.
+  Scene square;
+  test::place(square, test::groundMesh(1));
+  Warnings warnings;
+  Context context(&warnings);
+  EXPECT_LE(divided(square, 6, context, 20).positions().size(), 24u);
+  EXPECT_EQ(warnings.count, 1);
 }
 
 TEST(Subdivision, IsTheSameForAnyNumberOfThreads) {

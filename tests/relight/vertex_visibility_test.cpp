@@ -232,5 +232,15 @@ TEST(SampleNeighbours, AreAboutSix) {
   EXPECT_NEAR(static_cast<double>(sum) / 1024, 6, 1);
 }
 
+TEST(SampleNeighbours, AreFewWhereSheetsAreStacked) {
+  Scene scene;
+  for (int i = 0; i < 200; ++i)
+    test::place(scene, test::squareMesh(), translation({0, 0, 1e-4 * i}));
+  const LightSamples samples = surfaceSamples(scene, 2048, 1);
+  const SampleNeighbours neighbours(samples);
+  for (size_t i = 0; i < samples.count(); ++i)
+    EXPECT_LE(neighbours.at(i).size(), SampleNeighbours::kMost);
+}
+
 }  // namespace
 }  // namespace lobelia::relight

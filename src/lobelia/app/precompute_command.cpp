@@ -161,9 +161,9 @@ void addPrecomputeOptions(CLI::App& c, PrecomputeOptions& o) {
       ->capture_default_str();
   PrecomputeSettings& s = o.settings;
   c.add_option("--samples", s.sampleCount,
-               "Samples of light: directions, or places on surfaces; a power of two")
+               "Samples of light: directions, or places on surfaces; a power of two, at least 256")
       ->type_name("N")
-      ->check(powerOfTwo(2, 32768))
+      ->check(powerOfTwo(256, 32768))
       ->capture_default_str();
   c.add_option("--sigma", s.sigma,
                "Error that each node of a cut may have: the root of its summed squared "

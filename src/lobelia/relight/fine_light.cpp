@@ -11,7 +11,7 @@ constexpr int kChunkLevels = std::countr_zero(kChunk);
 
 void addCone(const SampleTree& tree, size_t node, FineUnits* units) {
   const Vec3f mean = tree.meanP[node];
-  const float size = length(mean), cosine = tree.coneCosine[node];
+  const float size = length(mean), cosine = tree.spread[node];
   const Vec3f axis = size > 0 ? mean / size : Vec3f(0, 0, 1);
   units->x.push_back(axis.x), units->y.push_back(axis.y), units->z.push_back(axis.z);
   units->cosine.push_back(cosine);

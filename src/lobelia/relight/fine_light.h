@@ -18,7 +18,8 @@ namespace lobelia::relight {
 struct FineUnits {
   int level = 0;  // of the fine nodes
   size_t count = 0;
-  // A cone about a unit direction that holds a unit's light: cosine and sine of the half angle.
+  // A cone about a unit direction that holds a unit's samples: cosine and sine of the half angle.
+  // The light that samples stand for reaches half their distance farther; it is where they are.
   // Filled up to whole chunks.
   AlignedFloats x, y, z, cosine, sine;
   std::vector<uint32_t> firstNode, chunkCount;  // the fine nodes: heap index, number of chunks

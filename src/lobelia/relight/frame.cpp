@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/path/receivers.h"
 #include "lobelia/relight/frame_tile.h"
 
 namespace lobelia::relight {
@@ -41,6 +42,7 @@ void addCounts(const TileCounts& counts, uint64_t pixels, double seconds, Contex
   s.addCount("evaluations", counts.pixels.evaluations);
   s.addCount("fine_chunks", counts.pixels.fineChunks);
   s.addCount("nonfinite", counts.nonFinite);
+  if (counts.firstBad) noteNonFinitePixel(*counts.firstBad, context);
 }
 
 }  // namespace
@@ -48,7 +50,7 @@ void addCounts(const TileCounts& counts, uint64_t pixels, double seconds, Contex
 struct FrameRenderer::Impl {
   Impl(const Tracer& t, const EmitterSampler& e, const VisibilityData& d)
       : tracer(t),
-        emitters(e),
+        emitters(&e),
         data(requireEnvironment(d)),
         lookup(data.samples.p),
         light(distantLight(t.scene())) {}
@@ -67,7 +69,7 @@ struct FrameRenderer::Impl {
   }
 
   const Tracer& tracer;
-  const EmitterSampler& emitters;
+  const EmitterSampler* emitters;
   const VisibilityData& data;
   DirectionLookup lookup;
   DistantLight light;
@@ -80,6 +82,11 @@ FrameRenderer::FrameRenderer(const Tracer& tracer, const EmitterSampler& emitter
     : impl_(std::make_unique<Impl>(tracer, emitters, data)) {}
 FrameRenderer::~FrameRenderer() = default;
 
+void FrameRenderer::relight(const EmitterSampler& emitters) {
+  impl_->emitters = &emitters;
+  impl_->light = distantLight(impl_->tracer.scene());
+}
+
 FrameLight FrameRenderer::light(double degrees, const LightCutSettings& settings,
                                 Context& context) const {
   const StageTimer timer(context, "light");
@@ -91,8 +98,8 @@ FrameLight FrameRenderer::light(double degrees, const LightCutSettings& settings
 void FrameRenderer::render(const FrameLight& light, const Camera& camera,
                            const FrameSettings& settings, Film& film, Context& context) {
   const int64_t start = nanosecondsNow();
-  const FrameInput input{impl_->tracer, impl_->emitters, impl_->data, impl_->lookup,
-                         light,         camera,          settings,    context.seed};
+  const FrameInput input{impl_->tracer, *impl_->emitters, impl_->data, impl_->lookup,
+                         light,         camera,           settings,    context.seed};
   const int across = (film.width + FrameTile::kSize - 1) / FrameTile::kSize;
   const int down = (film.height + FrameTile::kSize - 1) / FrameTile::kSize;
   TileCounts counts;

@@ -18,17 +18,24 @@ struct FrameSettings {
   int spp = 1;          // 1: through the pixel's middle, else by the camera's filter
   bool refined = true;  // finer light where lobes are narrow
   bool hideEmitters = false;
+  // Each thread's memory for what vertices see: beyond it they are forgotten and merged again,
+  // which changes no pixel.
+  size_t cacheBytes = size_t{64} << 20;
 };
 
 // What the frames of a scene share; keeps references.
 class FrameRenderer {
  public:
   // data: of light from an environment, or this throws UsageError. emitters: of the scene of the
-  // tracer, whose emitters may change if a new renderer is made then.
+  // tracer; relight() when its emitters have changed.
   FrameRenderer(const Tracer& tracer, const EmitterSampler& emitters, const VisibilityData& data);
   ~FrameRenderer();
   FrameRenderer(const FrameRenderer&) = delete;
   FrameRenderer& operator=(const FrameRenderer&) = delete;
+
+  // Takes the light from the scene's emitters as they are now, of which `emitters` is made; keeps
+  // all that depends on the data alone. Frames want a new light() then. Not during render().
+  void relight(const EmitterSampler& emitters);
 
   // The light of a frame, turned about the first environment's vertical axis (else +y). Seconds:
   // "light".
@@ -36,7 +43,8 @@ class FrameRenderer {
   // Fills the film's picture (layer ""). Same seed, same pixels for any number of threads. Seconds:
   // "buffer", "merge", "shade": of the frame's time, shared out as threads spent theirs. Counts:
   // "frames", "pixels", "object_pixels", "vertices_merged", "merged_nodes", "evaluations",
-  // "fine_chunks", "nonfinite" (pixels, left black). Throws Cancelled when the context is.
+  // "fine_chunks", "nonfinite" (samples, left out of their pixels; the first such pixel:
+  // noteNonFinitePixel()). Throws Cancelled when the context is.
   void render(const FrameLight& light, const Camera& camera, const FrameSettings& settings,
               Film& film, Context& context);
 

@@ -11,6 +11,7 @@ void TileCounts::add(const TileCounts& o) {
   bufferNs += o.bufferNs, mergeNs += o.mergeNs, shadeNs += o.shadeNs;
   objectPixels += o.objectPixels, vertices += o.vertices, mergedNodes += o.mergedNodes;
   nonFinite += o.nonFinite;
+  if (o.firstBad) firstBad = std::min(firstBad.value_or(*o.firstBad), *o.firstBad);
   pixels.evaluations += o.pixels.evaluations, pixels.fineChunks += o.pixels.fineChunks;
 }
 
@@ -52,14 +53,35 @@ void FrameTile::trace(const Tracer& tracer) {
   }
 }
 
-void FrameTile::placePixels(const VisibilityData& data) {
-  for (Pixel& pixel : pixels_) {
+size_t FrameTile::placePixels(const VisibilityData& data, size_t first) {
+  for (size_t i = first; i < pixels_.size(); ++i) {
+    Pixel& pixel = pixels_[i];
     if (!pixel.hit) continue;
+    if (vertices_.full()) {
+      if (i > first) return i;
+      vertices_.forget();
+    }
     const SurroundingVertices around =
         data.mesh.at(pixel.hit->instance, pixel.hit->triangle, pixel.hit->b1, pixel.hit->b2);
     for (size_t v = 0; v < 3; ++v) {
       pixel.place.slot[v] = vertices_.slotOf(around.vertex[v]);
       pixel.place.weight[v] = around.weight[v];
+    }
+  }
+  return pixels_.size();
+}
+
+void FrameTile::shade(const FrameInput& input, size_t first, size_t end, TileCounts* counts) {
+  for (size_t i = first; i < end; ++i) {
+    const Pixel& pixel = pixels_[i];
+    vertices_.forgetChunksIfMany();
+    const Rgb value = radiance(input, pixel) * pixel.weight;
+    counts->objectPixels += pixel.hit ? 1 : 0;
+    if (isFinite(value)) {
+      sums_[pixel.index] += value;
+    } else {
+      ++counts->nonFinite;
+      counts->firstBad = std::min(counts->firstBad.value_or(pixel.index), pixel.index);
     }
   }
 }
@@ -81,30 +103,32 @@ TileCounts FrameTile::render(const FrameInput& input, int x0, int y0, int x1, in
   const FlushDenormals flush;  // tails of narrow lobes are full of them
   TileCounts counts;
   sums_.assign(kSize * kSize, Rgb{});
-  vertices_.begin(input.light, input.data.cuts);
+  vertices_.begin(input.light, input.data.cuts, input.settings.cacheBytes);
   shader_.begin(input.light, input.emitters, input.lookup, input.settings.refined, &vertices_);
   shader_.counts = {};
   for (int sample = 0; sample < input.settings.spp; ++sample) {
     const int64_t start = nanosecondsNow();
     makeRays(input, film, x0, y0, x1, y1, sample);
     trace(input.tracer);
-    placePixels(input.data);
-    const int64_t placed = nanosecondsNow();
-    vertices_.mergeNew();
-    const int64_t merged = nanosecondsNow();
-    for (const Pixel& pixel : pixels_) {
-      const Rgb value = radiance(input, pixel) * pixel.weight;
-      counts.objectPixels += pixel.hit ? 1 : 0;
-      if (isFinite(value))
-        sums_[pixel.index] += value;
-      else
-        ++counts.nonFinite;
+    int64_t done = nanosecondsNow();
+    counts.bufferNs += done - start;
+    for (size_t first = 0, end; first < pixels_.size(); first = end) {
+      end = placePixels(input.data, first);
+      const int64_t placed = nanosecondsNow();
+      vertices_.mergeNew();
+      const int64_t merged = nanosecondsNow();
+      shade(input, first, end, &counts);
+      counts.bufferNs += placed - done;
+      counts.mergeNs += merged - placed;
+      done = nanosecondsNow();
+      counts.shadeNs += done - merged;
     }
-    counts.bufferNs += placed - start;
-    counts.mergeNs += merged - placed;
-    counts.shadeNs += nanosecondsNow() - merged;
   }
-  counts.vertices = vertices_.vertexCount();
+  if (counts.firstBad) {  // it was the tile's
+    const int pixel = static_cast<int>(*counts.firstBad);
+    counts.firstBad = static_cast<uint32_t>((y0 + pixel / kSize) * film.width + x0 + pixel % kSize);
+  }
+  counts.vertices = vertices_.mergedVertices();
   counts.mergedNodes = vertices_.mergedNodes();
   counts.pixels = shader_.counts;
 

@@ -21,6 +21,7 @@ struct FrameInput {
 struct TileCounts {
   int64_t bufferNs = 0, mergeNs = 0, shadeNs = 0;
   uint64_t objectPixels = 0, vertices = 0, mergedNodes = 0, nonFinite = 0;
+  std::optional<uint32_t> firstBad;  // the smallest pixel of the film with a sample not finite
   PixelCounts pixels;
   void add(const TileCounts& o);
 };
@@ -42,7 +43,10 @@ class FrameTile {
   void makeRays(const FrameInput& input, const Film& film, int x0, int y0, int x1, int y1,
                 int sample);
   void trace(const Tracer& tracer);
-  void placePixels(const VisibilityData& data);
+  // From pixel `first` on, as many as the cache has room for; returns the end of them.
+  size_t placePixels(const VisibilityData& data, size_t first);
+  // Adds the pixels [first, end), which are placed.
+  void shade(const FrameInput& input, size_t first, size_t end, TileCounts* counts);
   Rgb radiance(const FrameInput& input, const Pixel& pixel);
 
   std::vector<Pixel> pixels_;  // blocks of 4 x 4, one after the other

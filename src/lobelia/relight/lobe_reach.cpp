@@ -8,8 +8,9 @@
 namespace lobelia::relight {
 namespace {
 
-constexpr float kNodeOverAlpha = 0.63f;  // radius of nodes that are small enough
-constexpr float kMirrorAlpha = 0.008f;   // half a degree of blur
+constexpr float kNodeOverAlpha = 0.63f;        // radius of nodes that are small enough
+constexpr float kMirrorAlpha = 0.008f;         // half a degree of blur
+constexpr float kBroadestPhong = 0.70710678f;  // alpha of the exponent 0
 
 bool isGlossy(LobeType type) {
   return type == LobeType::microfacetReflection || type == LobeType::ward ||
@@ -22,7 +23,7 @@ float alphaOf(const Lobe& lobe, float parameter) {
   return lobe.type == LobeType::phong ? 1 / std::sqrt(2 * (parameter + 1)) : parameter;
 }
 float parameterOf(const Lobe& lobe, float alpha) {
-  return lobe.type == LobeType::phong ? 0.5f / (alpha * alpha) - 1 : alpha;
+  return lobe.type == LobeType::phong ? std::max(0.5f / (alpha * alpha) - 1, 0.f) : alpha;
 }
 
 }  // namespace
@@ -39,7 +40,8 @@ std::optional<LobeReach> lobeReach(const Lobe& lobe, int levels, Lobe* widened) 
   if (!isGlossy(lobe.type)) return std::nullopt;
   const bool phong = lobe.type == LobeType::phong;
   const float leafRadius = 2 / std::sqrt(std::ldexp(1.f, levels));
-  const float finest = leafRadius / kNodeOverAlpha;
+  // Few samples resolve no lobe at all; it is then as broad as its kind can be, not broader.
+  const float finest = std::min(leafRadius / kNodeOverAlpha, phong ? kBroadestPhong : 1.f);
   const float x = std::max(alphaOf(lobe, lobe.alphaX), finest);
   const float y = phong ? x : std::max(alphaOf(lobe, lobe.alphaY), finest);
   widened->alphaX = parameterOf(lobe, x);

@@ -14,6 +14,10 @@ class PointGrid {
  public:
   // radius: how far near() can see, > 0.
   PointGrid(std::span<const Vec3f> points, float radius);
+  // The radius, or less of it where so many points crowd into cells (foliage, stacked sheets) that
+  // nearly all are near to each other: as much as leaves some 64 in a cell, seen from its points. A
+  // crowd in a cell of the finest grid there is (1/128 of the box) remains.
+  static float uncrowded(std::span<const Vec3f> points, float radius);
 
   // use(i) for every point within the radius of p, perhaps p itself, in an order that depends on
   // the points alone.
@@ -35,6 +39,7 @@ class PointGrid {
     int x, y, z;
   };
   Cell cellOf(Vec3f p) const;
+  double meanCompany() const;  // points in a point's cell
   size_t index(Cell c) const {
     return (static_cast<size_t>(c.z) * static_cast<size_t>(size_.y) + static_cast<size_t>(c.y)) *
                static_cast<size_t>(size_.x) +
@@ -42,6 +47,7 @@ class PointGrid {
   }
   std::span<const Vec3f> points_;
   float radius_;
+  bool finest_ = false;  // would a smaller radius make no smaller cells?
   Vec3f origin_;
   float inverseCell_ = 1;
   Cell size_{1, 1, 1};

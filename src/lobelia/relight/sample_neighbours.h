@@ -11,8 +11,9 @@ namespace lobelia::relight {
 
 class SampleNeighbours {
  public:
+  static constexpr size_t kMost = 16;
   // About six for each sample, none where surfaces are far apart; of places those that face one
-  // way.
+  // way. The nearest kMost where surfaces crowd.
   explicit SampleNeighbours(const LightSamples& samples);
   std::span<const uint16_t> at(size_t sample) const {
     return {others_.data() + begin_[sample], others_.data() + begin_[sample + 1]};

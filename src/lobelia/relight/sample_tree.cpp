@@ -46,13 +46,13 @@ SampleTree makeSampleTree(const LightSamples& samples) {
   tree.meanP = nodeMeans(samples.p);
   const bool directions = samples.kind == LightSamples::Kind::environment;
   if (!directions) tree.meanN = nodeMeans(samples.n);
-  tree.coneCosine.resize(tree.meanP.size());
+  tree.spread.resize(tree.meanP.size());
   parallelFor(tree.meanP.size(), 256, [&](size_t i) {
     if (i == 0) return;
     const int depth = static_cast<int>(std::bit_width(i)) - 1;
     const int level = tree.levels - depth;
     const size_t begin = (i - (size_t{1} << depth)) << level, end = begin + (size_t{1} << level);
-    tree.coneCosine[i] =
+    tree.spread[i] =
         directions ? coneCosine(tree, begin, end, i) : sphereRadius(tree, begin, end, i);
   });
   return tree;

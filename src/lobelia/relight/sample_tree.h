@@ -21,10 +21,10 @@ struct SampleTree {
   // By heap index, 2 << levels entries, the first of no meaning. Means of the leaves' p and n;
   // those of directions are NOT normalised; meanN is empty for an environment.
   std::vector<Vec3f> meanP, meanN;
-  // environment: cosine of the half angle of a cone about meanP that holds all directions (-1:
-  // all of them, where the mean has no direction); surfaces: radius of a sphere about meanP that
-  // holds all places.
-  std::vector<float> coneCosine;
+  // How far leaves lie from meanP. environment: cosine of the half angle of a cone about meanP that
+  // holds all directions (-1: all of them, where the mean has no direction); surfaces: radius of a
+  // sphere about meanP that holds all places.
+  std::vector<float> spread;
 
   size_t leafCount() const { return size_t{1} << levels; }
   size_t heapIndex(int level, size_t place) const {

@@ -26,8 +26,6 @@ constexpr size_t kMostSamples = 512;
 // In parts of the scene's diagonal: shorter edges stay; longer ones are halved whatever they see,
 // because nothing may stand just at their ends and middles; and the judge's limit.
 constexpr float kShortest = 1.f / 100, kLongest = 1.f / 8, kTolerance = 1.f / 500;
-// The vertices added are at most as many as there are, or this many.
-constexpr size_t kAlwaysAllowed = 20000;
 
 // One sample of each run of leaves.
 LightSamples thinned(const LightSamples& samples, uint64_t seed) {
@@ -80,7 +78,7 @@ EdgeTable edgesOf(std::span<const LeafTriangle> triangles) {
 class Subdivider {
  public:
   Subdivider(const Tracer& tracer, SampleMesh mesh, const LightSamples& samples,
-             std::span<const uint8_t> bothSides, Context& context)
+             std::span<const uint8_t> bothSides, size_t allowed, Context& context)
       : tracer_(tracer),
         scene_(tracer.scene()),
         mesh_(std::move(mesh)),
@@ -89,8 +87,7 @@ class Subdivider {
         bothSides_(bothSides),
         context_(context),
         diagonal_(length(tracer.bounds().extent())),
-        mostVertices_(mesh_.positions().size() +
-                      std::max(mesh_.positions().size(), kAlwaysAllowed)) {}
+        mostVertices_(mesh_.positions().size() + std::max(mesh_.positions().size(), allowed)) {}
 
   // False: there was nothing to halve, or no room for it.
   bool round() {
@@ -100,7 +97,6 @@ class Subdivider {
     if (context_.cancelled()) throw Cancelled{};
     const bool whole = limit();
     firstNew_ = mesh_.positions().size();
-    close();
     split();
     return whole && mesh_.positions().size() > firstNew_;
   }
@@ -163,17 +159,27 @@ class Subdivider {
     return count > 0 ? 0.5f * static_cast<float>(wrong) / static_cast<float>(count) : 0.f;
   }
 
-  // Of too many edges those stay that need it most. True: there were not too many.
+  // Of too many edges those are halved that need it most, the earlier ones of equals. True: there
+  // were not too many. What close() adds counts, so that there is no more than `mostVertices_`.
   bool limit() {
     const size_t room = mostVertices_ - std::min(mostVertices_, mesh_.positions().size());
-    std::vector<float> errors;
-    for (const Edge& e : table_.edges)
-      if (e.error > 0) errors.push_back(e.error);
-    if (errors.size() <= room) return true;
-    std::sort(errors.begin(), errors.end(), std::greater<>());
-    const float least = room > 0 ? errors[room - 1] : 1e30f;
-    for (Edge& e : table_.edges)
-      if (e.error < least) e.error = 0;
+    std::vector<std::pair<float, size_t>> wanted;  // -error, edge: the worst first
+    for (size_t i = 0; i < table_.edges.size(); ++i)
+      if (table_.edges[i].error > 0) wanted.emplace_back(-table_.edges[i].error, i);
+    std::sort(wanted.begin(), wanted.end());
+    // Vertices that the first `kept` add with those that follow from them.
+    const auto keep = [&](size_t kept) {
+      for (Edge& e : table_.edges) e.error = 0;
+      for (size_t i = 0; i < kept; ++i) table_.edges[wanted[i].second].error = -wanted[i].first;
+      return kept + close();
+    };
+    if (keep(wanted.size()) <= room) return true;
+    size_t fits = 0, tooMany = wanted.size();  // more edges never add less
+    while (tooMany - fits > 1) {
+      const size_t kept = fits + (tooMany - fits) / 2;
+      (keep(kept) <= room ? fits : tooMany) = kept;
+    }
+    keep(fits);
     context_.warning(
         fmt::format("subdivision stops at {} vertices; the scene's meshes are too coarse to "
                     "interpolate visibility well, a finer tessellation would help",
@@ -181,8 +187,9 @@ class Subdivider {
     return false;
   }
 
-  // No triangle keeps just two edges to halve.
-  void close() {
+  // No triangle keeps just two edges to halve. Returns how many edges that adds.
+  size_t close() {
+    size_t added = 0;
     std::vector<uint32_t> open;
     for (uint32_t t = 0; t < triangles_.size(); ++t) open.push_back(t);
     while (!open.empty()) {
@@ -196,9 +203,11 @@ class Subdivider {
         Edge& e = table_.edges[table_.ofUse[3 * t + k]];
         if (e.error > 0) continue;
         e.error = 1e-6f;
+        ++added;
         for (size_t i = 0; i < e.useCount; ++i) open.push_back(table_.uses[e.firstUse + i] / 3);
       }
     }
+    return added;
   }
 
   void split() {
@@ -250,9 +259,10 @@ class Subdivider {
 }  // namespace
 
 SampleMesh subdivided(const Tracer& tracer, SampleMesh mesh, const LightSamples& samples,
-                      std::span<const uint8_t> bothSides, int rounds, Context& context) {
+                      std::span<const uint8_t> bothSides, int rounds, Context& context,
+                      size_t allowed) {
   const size_t before = mesh.positions().size();
-  Subdivider subdivider(tracer, std::move(mesh), samples, bothSides, context);
+  Subdivider subdivider(tracer, std::move(mesh), samples, bothSides, allowed, context);
   for (int i = 0; i < rounds && subdivider.round(); ++i) {
   }
   SampleMesh out = subdivider.take();

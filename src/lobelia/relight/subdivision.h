@@ -10,8 +10,10 @@ namespace lobelia::relight {
 
 // Halves edges up to `rounds` times. samples: in the order of a light tree's leaves; 512 of them
 // are looked at. bothSides: by instance (VisibilityData). Adds the counts "vertices_added" and
-// "subdivision_rays". Throws Cancelled with the context.
+// "subdivision_rays". No more vertices are added than there are, or `allowed`, if that is more:
+// what needs it most, with a warning. Throws Cancelled with the context.
 SampleMesh subdivided(const Tracer& tracer, SampleMesh mesh, const LightSamples& samples,
-                      std::span<const uint8_t> bothSides, int rounds, Context& context);
+                      std::span<const uint8_t> bothSides, int rounds, Context& context,
+                      size_t allowed = 20000);
 
 }  // namespace lobelia::relight

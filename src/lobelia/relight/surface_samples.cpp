@@ -3,7 +3,9 @@
 // Deviation: instead of repulsion, which would have to follow surfaces over edges, more random
 // places than are wanted are drawn, and those that lie closest to others are taken away one by one
 // (weighted sample elimination [Yuksel15]; its weights and radius). Places whose normals point
-// apart do not see each other, so that thin bodies keep both of their sides.
+// apart do not see each other, so that thin bodies keep both of their sides. Where much area is in
+// little space, as in foliage, the radius is smaller (PointGrid::uncrowded()): the work stays in
+// proportion to the samples, and they are less even.
 #include <cmath>
 #include <queue>
 
@@ -82,7 +84,7 @@ Places drawn(const Scene& scene, const AreaTable& table, size_t count, uint64_t 
 // Takes places away until `count` are left; returns those left, ascending.
 std::vector<uint32_t> eliminated(const Places& places, double area, size_t count) {
   const double spread = std::sqrt(area / static_cast<double>(count) / (2 * std::sqrt(3.0)));
-  const float reach = static_cast<float>(2 * spread);
+  const float reach = PointGrid::uncrowded(places.p, static_cast<float>(2 * spread));
   const PointGrid grid(places.p, reach);
   const auto weight = [&](uint32_t i, uint32_t j) {
     if (i == j || dot(places.n[i], places.n[j]) < kApart) return 0.f;

@@ -1,15 +1,41 @@
 #include "lobelia/relight/vertex_cache.h"
 
+#include <algorithm>
+
 namespace lobelia::relight {
 
-void VertexCache::begin(const FrameLight& light, const CutSet& cuts) {
+namespace {
+
+// Twice what is needed, so that growing stays cheap, but no more than `most` unless it is needed.
+void growTo(size_t needed, size_t most, AlignedFloats* values) {
+  if (values->size() < needed) values->resize(std::max(needed, std::min(2 * needed, most)), 0.f);
+}
+
+}  // namespace
+
+void VertexCache::begin(const FrameLight& light, const CutSet& cuts, size_t mostBytes) {
   light_ = &light;
   cuts_ = &cuts;
+  forget();
+  forgotten_ = 0, mergedNodes_ = 0;
+  // One pixel's three at least.
+  mostVertices_ = std::max<size_t>(mostBytes / (3 * light.cut.padded() * sizeof(float)), 3);
+  mostChunks_ = mostBytes / (3 * kChunk * sizeof(float));
+}
+
+void VertexCache::forget() {
   slots_.clear();
   chunkNumbers_.clear();
   vertices_.clear();
   indices_.clear();
-  merged_ = 0, mergedNodes_ = 0, chunkCount_ = 0;
+  forgotten_ += merged_;
+  merged_ = 0, chunkCount_ = 0;
+}
+
+void VertexCache::forgetChunksIfMany() {
+  if (chunkCount_ <= mostChunks_) return;
+  chunkNumbers_.clear();
+  chunkCount_ = 0;
 }
 
 uint32_t VertexCache::slotOf(uint32_t vertex) {
@@ -23,7 +49,7 @@ uint32_t VertexCache::slotOf(uint32_t vertex) {
 
 void VertexCache::mergeNew() {
   const size_t each = 3 * light_->cut.padded();
-  if (rows_.size() < vertices_.size() * each) rows_.resize(2 * vertices_.size() * each, 0.f);
+  growTo(vertices_.size() * each, mostVertices_ * each, &rows_);
   indices_.resize(vertices_.size());
   for (; merged_ < vertices_.size(); ++merged_) {
     const std::span<const CutNode> cut = cuts_->cut(vertices_[merged_]);
@@ -40,8 +66,7 @@ uint32_t VertexCache::chunkOf(uint32_t slot, uint32_t firstNode) {
   uint32_t& number = chunkNumbers_[(uint64_t{slot} << 32) | firstNode];
   if (number != NumberTable::kNone) return number;
   number = chunkCount_++;
-  const size_t needed = size_t{chunkCount_} * 3 * kChunk;
-  if (chunks_.size() < needed) chunks_.resize(2 * needed);
+  growTo(size_t{chunkCount_} * 3 * kChunk, mostChunks_ * 3 * kChunk, &chunks_);
   mergeVertexChunk(light_->sums, firstNode, cuts_->cut(vertices_[slot]), indices_[slot],
                    chunkRows(number));
   return number;

@@ -10,8 +10,15 @@ namespace lobelia::relight {
 
 class VertexCache {
  public:
-  // Forgets all vertices. Keeps references.
-  void begin(const FrameLight& light, const CutSet& cuts);
+  // Forgets all vertices. Keeps references. mostBytes: for the vertices' light, and as much again
+  // for its refinements.
+  void begin(const FrameLight& light, const CutSet& cuts, size_t mostBytes = size_t{64} << 20);
+  // Forgets the vertices, so that pixels to come ask for them again; numbers begin at 0.
+  void forget();
+  // Is there no room for the vertices of one more pixel?
+  bool full() const { return vertices_.size() + 3 > mostVertices_; }
+  // Forgets refinements where they have become too many. Not between chunkOf() and chunkRows().
+  void forgetChunksIfMany();
 
   // Number of a vertex in this tile; its light is there after mergeNew().
   uint32_t slotOf(uint32_t vertex);
@@ -30,8 +37,9 @@ class VertexCache {
   float visibility(uint32_t slot, uint32_t leaf) const;
 
   size_t vertexCount() const { return vertices_.size(); }
+  // Since begin(): vertices that were forgotten and asked for again count again.
+  uint64_t mergedVertices() const { return forgotten_ + merged_; }
   uint64_t mergedNodes() const { return mergedNodes_; }
-  uint64_t fineChunks() const { return chunkCount_; }
 
  private:
   const FrameLight* light_ = nullptr;
@@ -40,6 +48,8 @@ class VertexCache {
   std::vector<uint32_t> vertices_;  // by slot
   std::vector<CutIndex> indices_;   // by slot
   size_t merged_ = 0;               // slots
+  uint64_t forgotten_ = 0;          // vertices that were merged
+  size_t mostVertices_ = 0, mostChunks_ = 0;
   uint64_t mergedNodes_ = 0;
   uint32_t chunkCount_ = 0;
   AlignedFloats rows_, chunks_;

@@ -10,7 +10,10 @@ namespace lobelia::relight {
 namespace {
 
 constexpr uint8_t kBehind = 0x80;
-constexpr size_t kMostFaces = 0x80;  // around a vertex; what more there are add nothing
+// Around a vertex: as many numbers as fit beside kBehind. In larger fans, samples that are in front
+// of later faces alone count as behind the surface: few, because the leading faces come first and
+// look in all directions that there are, up to 45 degrees.
+constexpr size_t kMostFaces = 0x80;
 
 // Bit i: flags[i], which is 0 or 1. The product moves the lowest bits of eight bytes into its top
 // byte, each to its place.
