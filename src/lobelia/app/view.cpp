@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "lobelia/app/edited_scene.h"
@@ -129,9 +130,13 @@ class Frames {
   // For the emitters that there are now.
   void prepare() {
     const StageTimer timer(context_, "prepare");
-    renderer_.reset();
-    emitters_.emplace(scene_, tracer_.bounds());
-    renderer_.emplace(tracer_, *emitters_, data_);
+    auto emitters = std::make_unique<EmitterSampler>(scene_, tracer_.bounds());
+    if (renderer_) {
+      renderer_->relight(*emitters);
+    } else {
+      renderer_.emplace(tracer_, *emitters, data_);
+    }
+    emitters_ = std::move(emitters);
   }
 
   void play() {
@@ -211,7 +216,7 @@ class Frames {
   const Tracer tracer_;
   double rotation_;                // degrees
   std::optional<Transform> view_;  // that a script gave the camera
-  std::optional<EmitterSampler> emitters_;
+  std::unique_ptr<EmitterSampler> emitters_;
   std::optional<relight::FrameRenderer> renderer_;
   std::optional<ToneCurve> curve_;  // of all PNG files
 };
