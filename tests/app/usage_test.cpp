@@ -206,9 +206,10 @@ TEST(Usage, InfoReadsWell) {
                       shape + shape + "<emitter type='point'/><emitter type='point'/></scene>");
   const ProgramResult r = runProgram("info " + (folder / "s.xml"));
   EXPECT_EQ(r.exitCode, 0) << r.err;
-  for (const char* line : {"emitters     2 point\n", "cameras      64x48\n",
-                           "bounds       (-1, -1, -1) to (1, 1, 1)\n", "max_depth    unlimited\n",
-                           "variants     none\n", " (2 times)\n"})
+  for (const char* line :
+       {"emitters     2 point\n", "cameras      64x48\n",
+        "bounds       (-1, -1, -1) to (1, 1, 1)\n", "max_depth    unlimited\n",
+        "variants     none\n", "names        materials none; emitters none\n", " (2 times)\n"})
     EXPECT_NE(r.out.find(line), std::string::npos) << line << "\n" << r.out;
   EXPECT_EQ(r.out.find_first_of("{}\"["), std::string::npos) << r.out;
 }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "lobelia/app/commands.h"
 #include "lobelia/app/frame_setup.h"
@@ -58,6 +59,16 @@ Json describe(const Bounds3f& box) {  // null: of nothing
   return {{"lo", {box.lo.x, box.lo.y, box.lo.z}}, {"hi", {box.hi.x, box.hi.y, box.hi.z}}};
 }
 
+// What designs may name, each once.
+template <class T>
+Json namesOf(const std::vector<T>& items) {
+  Json names = Json::array();
+  std::set<std::string> known;
+  for (const T& item : items)
+    if (!item.name.empty() && known.insert(item.name).second) names.push_back(item.name);
+  return names;
+}
+
 Json describe(const Scene& scene) {
   Json emitters = Json::object();
   for (const Emitter& emitter : scene.emitters) {
@@ -78,21 +89,23 @@ Json describe(const Scene& scene) {
                         {"where", toString(finding.where)},
                         {"message", finding.message}});
   }
-  return {{"scene", scene.file.empty() ? scene.name : scene.file},
-          {"triangles", triangleCount(scene)},
-          {"meshes", scene.meshes.size()},
-          {"instances", scene.instances.size()},
-          {"materials", scene.materials.size()},
-          {"textures", scene.textures.size()},
-          {"images", scene.images.size()},
-          {"emitters", emitters},
-          {"light_groups", groups},
-          {"cameras", cameras},
-          {"variants", scene.variants},
-          {"bounds", describe(bounds(scene))},
-          {"max_depth", scene.maxDepth},
-          {"hash", fmt::format("{:016x}", hash(scene))},
-          {"findings", findings}};
+  return {
+      {"scene", scene.file.empty() ? scene.name : scene.file},
+      {"triangles", triangleCount(scene)},
+      {"meshes", scene.meshes.size()},
+      {"instances", scene.instances.size()},
+      {"materials", scene.materials.size()},
+      {"textures", scene.textures.size()},
+      {"images", scene.images.size()},
+      {"emitters", emitters},
+      {"light_groups", groups},
+      {"cameras", cameras},
+      {"variants", scene.variants},
+      {"names", {{"materials", namesOf(scene.materials)}, {"emitters", namesOf(scene.emitters)}}},
+      {"bounds", describe(bounds(scene))},
+      {"max_depth", scene.maxDepth},
+      {"hash", fmt::format("{:016x}", hash(scene))},
+      {"findings", findings}};
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -103,6 +116,15 @@ std::string cameraText(const Json& camera) {
   const std::string name = camera["name"];
   return fmt::format("{}{}x{}", name.empty() ? "" : name + " ", camera["width"].get<int>(),
                      camera["height"].get<int>());
+}
+
+// Of many, the first.
+std::string namesText(const Json& names) {
+  constexpr size_t kShown = 12;
+  std::vector<std::string> words = names.get<std::vector<std::string>>();
+  const size_t more = words.size() > kShown ? words.size() - kShown : 0;
+  words.resize(words.size() - more);
+  return joined(words) + (more > 0 ? fmt::format(" and {} more (--json)", more) : "");
 }
 
 // What the JSON says, for eyes.
@@ -117,6 +139,9 @@ std::string text(const std::string& key, const Json& value) {
     for (const Json& camera : value) words.push_back(cameraText(camera));
     return joined(words);
   }
+  if (key == "names")
+    return fmt::format("materials {}; emitters {}", namesText(value["materials"]),
+                       namesText(value["emitters"]));
   if (key == "bounds") {
     if (value.is_null()) return "empty";
     const auto corner = [](const Json& c) {
