@@ -198,6 +198,10 @@ TEST(BenchCuts, DataAndError) {
   expectNumbers(error, 10, {"nodes", "l2", "mean_ratio"});
   EXPECT_LT(error[6]["l2"], error[0]["l2"]) << "512 nodes, 64 nodes";
   EXPECT_NEAR(error[6]["mean_ratio"].get<double>(), 1, 0.03);
+  const json& sigma = result["sigma"];
+  expectNumbers(sigma, 4, {"sigma", "cut", "rms", "l2", "mean_ratio"});
+  EXPECT_GT(sigma[0]["l2"], sigma[3]["l2"]);
+  EXPECT_LT(sigma[0]["cut"], sigma[3]["cut"]);
   expectPictures(folder, "cuts", {"figure10-statue-path", "figure10-statue-512"});
 }
 

@@ -42,7 +42,7 @@ Film emptyFrame(const Camera& camera) {
 }
 
 const std::vector<std::string>& cutsFigures() {
-  static const std::vector<std::string> figures{"9", "10"};
+  static const std::vector<std::string> figures{"9", "10", "sigma"};
   return figures;
 }
 
@@ -53,7 +53,8 @@ std::vector<BenchTable> benchCuts(const BenchOptions& options, Context& context)
   for (const std::string& scene : options.scenes.empty() ? kScenes : options.scenes) {
     try {
       if (figures.contains("9") && !context.cancelled()) cutsData(scene, study);
-      if (figures.contains("10") && !context.cancelled()) cutsError(scene, study);
+      const bool lightCuts = figures.contains("10"), sigmas = figures.contains("sigma");
+      if ((lightCuts || sigmas) && !context.cancelled()) cutsError(scene, lightCuts, sigmas, study);
     } catch (const Cancelled&) {  // the tables have what there is
     }
     report.writePage(options.commandLine);
