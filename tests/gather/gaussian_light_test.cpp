@@ -355,7 +355,7 @@ TEST(GaussianShadows, MapsDoNotShadowTheFloorThatTheyShow) {
   Receivers receivers = randomReceivers(400, {LobeType::lambert}, 1, 4);
   for (ReceiverPoint& r : receivers.points) {
     r.p = Vec3f{20 * r.p.x, 20 * r.p.y, 0};
-    r.frame = Frame(Vec3f{0, 0, 1});
+    r.frame = frameFromNormal({0, 0, 1});
     r.ng = {0, 0, 1};
   }
   GatherSettings settings;
