@@ -182,6 +182,28 @@ TEST_F(View, ScriptsChangeWhatFramesShow) {
             view("--rotate 30 --design " + file("all.xml"), "all.exr").layers.at("").values);
 }
 
+// Images that come with a design do not move those of an environment away.
+TEST_F(View, ScriptsMayBringImages) {
+  write(R"(<bsdf type="diffuse" id="paint"/>)", kSky);
+  precompute();
+  const Film picture = view("", "sky.exr");
+  writeText(file("textured.xml"),
+            "<scene version=\"3.0.0\"><bsdf type=\"diffuse\" id=\"paint\"><texture type=\"bitmap\" "
+            "name=\"reflectance\"><string name=\"filename\" value=\"sky.exr\"/></texture></bsdf>"
+            "</scene>");
+  std::string script = "environment sky.exr\nframe\n";
+  for (int i = 0; i < 20; ++i) script += "design textured.xml\nenvironment sky.exr\nturn 18\n";
+  writeText(file("script.txt"), script + "design textured.xml\nframe\n");
+  const ProgramResult r = runProgram(command("--script " + file("script.txt"), "i%d.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_NE(io::readFilm(file("i0.exr")).layers.at("").values,
+            io::readFilm(file("i1.exr")).layers.at("").values);
+  EXPECT_EQ(io::readFilm(file("i1.exr")).layers.at("").values,
+            view("--environment " + file("sky.exr") + " --design " + file("textured.xml"), "j.exr")
+                .layers.at("")
+                .values);
+}
+
 TEST_F(View, ScriptsMoveTheCameraThatPicturesAreSeenBy) {
   write(kDiffuse, std::string(kSky) + "<sensor type=\"perspective\"/>");
   precompute();

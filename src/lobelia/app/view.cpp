@@ -182,7 +182,7 @@ class Frames {
                          "the visibility has to know; make a scene with it and "
                          "precompute that");
     }
-    if (parts.emitters) prepare();
+    prepare();  // emitters' images may have moved, whatever the edit is of
   }
 
   void renderFrame(const Frame& frame) {
