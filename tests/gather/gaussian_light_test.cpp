@@ -308,22 +308,29 @@ double relativeDistance(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
   return std::sqrt(square / whole);
 }
 
+// texels: of shadow maps, 0: none; rays: GatherSettings::shadowRays.
+std::vector<Rgb> gatheredByMaps(const Tracer& tracer, const Receivers& receivers,
+                                const VirtualLights& lights, int texels, int rays) {
+  Context context;
+  std::optional<gather::DepthMaps> maps;
+  if (texels > 0) maps.emplace(tracer, lights, texels, context);
+  GatherSettings settings;
+  settings.direct = true;
+  settings.depthMaps = maps ? &*maps : nullptr;
+  settings.shadowRays = rays;
+  std::vector<Rgb> values(receivers.points.size());
+  gatherAll(tracer, receivers, lights, settings, values, context);
+  return values;
+}
+
 TEST(GaussianShadows, MapsComeToRaysWithTheirTexels) {
   const Scene scene = randomTriangles(120, 7);
   Context context;
   const Tracer tracer(scene, context);
   const VirtualLights lights = scatteredLights(40, 9);
   const Receivers receivers = randomReceivers(400, {LobeType::lambert, LobeType::phong}, 2, 4);
-  GatherSettings settings;
-  settings.direct = true;
   const auto gathered = [&](int texels, int rays) {
-    std::optional<gather::DepthMaps> maps;
-    if (texels > 0) maps.emplace(tracer, lights, texels, context);
-    settings.depthMaps = maps ? &*maps : nullptr;
-    settings.shadowRays = rays;
-    std::vector<Rgb> values(receivers.points.size());
-    gatherAll(tracer, receivers, lights, settings, values, context);
-    return values;
+    return gatheredByMaps(tracer, receivers, lights, texels, rays);
   };
   const std::vector<Rgb> byRays = gathered(0, -1);
   EXPECT_GT(relativeDistance(gathered(0, 0), byRays), 0.1);  // there are shadows
@@ -358,16 +365,8 @@ TEST(GaussianShadows, MapsDoNotShadowTheFloorThatTheyShow) {
     r.frame = frameFromNormal({0, 0, 1});
     r.ng = {0, 0, 1};
   }
-  GatherSettings settings;
-  settings.direct = true;
   const auto gathered = [&](int texels, int rays) {
-    std::optional<gather::DepthMaps> maps;
-    if (texels > 0) maps.emplace(tracer, lights, texels, context);
-    settings.depthMaps = maps ? &*maps : nullptr;
-    settings.shadowRays = rays;
-    std::vector<Rgb> values(receivers.points.size());
-    gatherAll(tracer, receivers, lights, settings, values, context);
-    return values;
+    return gatheredByMaps(tracer, receivers, lights, texels, rays);
   };
   const std::vector<Rgb> unshadowed = gathered(0, 0);
   for (const int texels : {8, 64, 100}) {

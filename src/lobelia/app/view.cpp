@@ -48,29 +48,12 @@ bool lightsFromNearby(EmitterType type) {
          type == EmitterType::projector || type == EmitterType::goniometric;
 }
 
-bool transmits(const FloatParam& share) { return share.value > 0 || share.texture.valid(); }
-bool transmits(const Scene& scene, MaterialHandle handle) {
-  if (!handle.valid()) return false;
-  const Material& m = scene[handle];
-  switch (m.type) {
-    case MaterialType::dielectric:
-    case MaterialType::thinDielectric:
-    case MaterialType::roughDielectric:
-    case MaterialType::diffuseTransmitter:
-      return true;
-    case MaterialType::principled:
-    case MaterialType::metallicRoughness:
-      return transmits(m.specTrans);
-    default:
-      return transmits(scene, m.a) || transmits(scene, m.b);
-  }
-}
-
 void warnOfMissing(const Scene& scene, Context& context) {
   const auto near = std::count_if(scene.emitters.begin(), scene.emitters.end(),
                                   [](const Emitter& e) { return lightsFromNearby(e.type); });
-  const auto clear = std::count_if(scene.instances.begin(), scene.instances.end(),
-                                   [&](const Instance& i) { return transmits(scene, i.material); });
+  const auto clear =
+      std::count_if(scene.instances.begin(), scene.instances.end(),
+                    [&](const Instance& i) { return relight::transmits(scene, i.material); });
   if (near == std::ssize(scene.emitters))
     context.warning("the scene has no light from infinity; add some with --environment or --sky");
   else if (near > 0)

@@ -9,11 +9,17 @@ constexpr int kMaxDepth = 64;
 
 bool isZero(const FloatParam& p) { return !p.texture.valid() && p.value == 0; }
 
-bool scattersBehind(const Scene& scene, MaterialHandle handle, int depth) {
+// twoSided: does it count what a two-sided material has on its back?
+bool reachesBehind(const Scene& scene, MaterialHandle handle, bool twoSided, int depth) {
   if (!handle.valid() || depth > kMaxDepth) return false;
   const Material& m = scene[handle];
+  const auto anyInside = [&] {
+    return reachesBehind(scene, m.a, twoSided, depth + 1) ||
+           reachesBehind(scene, m.b, twoSided, depth + 1);
+  };
   switch (m.type) {
     case MaterialType::twoSided:
+      return twoSided || anyInside();
     case MaterialType::dielectric:
     case MaterialType::thinDielectric:
     case MaterialType::roughDielectric:
@@ -25,9 +31,8 @@ bool scattersBehind(const Scene& scene, MaterialHandle handle, int depth) {
     case MaterialType::mask:
     case MaterialType::bump:
     case MaterialType::normalMap:
-      return scattersBehind(scene, m.a, depth + 1);
     case MaterialType::blend:
-      return scattersBehind(scene, m.a, depth + 1) || scattersBehind(scene, m.b, depth + 1);
+      return anyInside();
     case MaterialType::diffuse:
     case MaterialType::conductor:
     case MaterialType::roughConductor:
@@ -46,7 +51,10 @@ bool scattersBehind(const Scene& scene, MaterialHandle handle, int depth) {
 }  // namespace
 
 bool scattersBehind(const Scene& scene, MaterialHandle material) {
-  return scattersBehind(scene, material, 0);
+  return reachesBehind(scene, material, true, 0);
+}
+bool transmits(const Scene& scene, MaterialHandle material) {
+  return reachesBehind(scene, material, false, 0);
 }
 
 }  // namespace lobelia::relight

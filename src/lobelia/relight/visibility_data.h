@@ -26,6 +26,8 @@ struct VisibilityData {
 
 // Does the material scatter light that arrives from behind the surface (two-sided, transmitting)?
 bool scattersBehind(const Scene& scene, MaterialHandle material);
+// Does it let light through?
+bool transmits(const Scene& scene, MaterialHandle material);
 
 // Of all that the data depends on: meshes' places, normals and triangles, instances, and where
 // masks let rays pass. Other properties of materials, emitters and cameras may change.
