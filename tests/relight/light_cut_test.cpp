@@ -30,7 +30,7 @@ TEST(LightCut, CoversAllLeavesWithAllLight) {
     expectCovers(cut, 10);
     double sum = 0;
     for (size_t i = 0; i < cut.padded(); ++i) sum += static_cast<double>(cut.g[i]);
-    EXPECT_NEAR(sum / static_cast<double>(lit.light.sums.g[1]), 1, 1e-5);
+    EXPECT_NEAR(sum / static_cast<double>(lit.light.sums.power(1).y), 1, 1e-5);
   }
 }
 

@@ -90,7 +90,7 @@ TEST(LightValues, LightOfOneTexelIsWhereItShines) {
   EXPECT_LT(length(sums.direction(1) - turned.vector(sun)), 0.02f);
   // Of a tree's nodes too: the sum of what lies below.
   for (size_t i = 1; i < samples.count(); ++i)
-    EXPECT_NEAR(sums.g[i], sums.g[2 * i] + sums.g[2 * i + 1], 1e-5f * (1e-6f + sums.g[i]));
+    EXPECT_NEAR(sums.power(i).y, sums.power(2 * i).y + sums.power(2 * i + 1).y, 1e-5f * (1e-6f + sums.power(i).y));
 }
 
 TEST(LightValues, ConstantLightIsEvenAndDirectionalLightIsOneDirection) {
@@ -105,13 +105,13 @@ TEST(LightValues, ConstantLightIsEvenAndDirectionalLightIsOneDirection) {
   scene.emitters.push_back(emitter);
   const LightSamples samples = test::spiralSamples(8);
   const LightSums sums = lightSums(distantLight(scene), {}, samples, DirectionLookup(samples.p));
-  EXPECT_NEAR(sums.r[1], 7 + 4 * kPi, 1e-3f);
+  EXPECT_NEAR(sums.power(1).x, 7 + 4 * kPi, 1e-3f);
   size_t bright = 0;
   for (size_t i = samples.count(); i < 2 * samples.count(); ++i) {
     const float even = samples.measure[0];
-    if (sums.r[i] < 1.01f * even) continue;
+    if (sums.power(i).x < 1.01f * even) continue;
     ++bright;
-    EXPECT_NEAR(sums.r[i], 7 + even, 1e-3f);
+    EXPECT_NEAR(sums.power(i).x, 7 + even, 1e-3f);
     EXPECT_GT(sums.y[i], 0.99f);
   }
   EXPECT_EQ(bright, 1u);

@@ -48,6 +48,16 @@ struct Rows {
   }
 };
 
+void expectStarts(const LightCut& cut, const std::vector<CutNode>& seen,
+                  const std::vector<uint16_t>& starts) {
+  size_t node = 0;
+  uint32_t end = 1u << seen[0].level;
+  for (size_t k = 0; k < cut.count; ++k) {
+    while (end <= cut.begin[k]) end += 1u << seen[++node].level;
+    EXPECT_EQ(starts[k], node);
+  }
+}
+
 // Of light cuts from one node to all leaves, and visibility cuts from coarse to fine.
 TEST(VertexLight, IsLightTimesVisibilityOverTheLeavesOfEveryNode) {
   for (const size_t nodes : {size_t{1}, size_t{20}, size_t{128}, size_t{1} << kLevels})
@@ -57,7 +67,9 @@ TEST(VertexLight, IsLightTimesVisibilityOverTheLeavesOfEveryNode) {
       const std::vector<CutNode> seen = visibilityCut(seed, seed % 3 == 0 ? -1.f : 0.9f);
       const std::vector<Vec3d> leaves = visibleLeaves(lit.light.sums, seen);
       Rows rows(cut.padded());
-      const size_t merged = mergeVertexLight(lit.light.sums, cut, seen, rows.rows);
+      std::vector<uint16_t> starts(cut.count + 1);
+      const size_t merged = mergeVertexLight(lit.light.sums, cut, seen, rows.rows, starts);
+      expectStarts(cut, seen, starts);
       for (size_t k = 0; k < cut.count; ++k)
         rows.expectNear(k, sumOf(leaves, cut.begin[k], cut.begin[k + 1]));
       // It visits what the general algorithm does.
@@ -68,36 +80,37 @@ TEST(VertexLight, IsLightTimesVisibilityOverTheLeavesOfEveryNode) {
     }
 }
 
-TEST(VertexLight, OfChunksOfFineNodesIsTheSame) {
+TEST(VertexLight, OfFineNodesIsTheSame) {
   const test::LitTree lit = test::litTree(kLevels, test::spottedLight(30, 1), 64);
   for (uint64_t seed = 0; seed < 12; ++seed) {
     const std::vector<CutNode> seen = visibilityCut(seed, seed % 3 == 0 ? -1.f : 0.85f);
     const std::vector<Vec3d> leaves = visibleLeaves(lit.light.sums, seen);
-    CutIndex index;
-    index.set(seen, kLevels);
-    for (int level = 0; level <= kLevels - 4; ++level)
-      for (size_t place = 0; place < size_t{1} << (kLevels - level); place += kChunk) {
-        Rows rows(kChunk);
-        mergeVertexChunk(lit.light.sums, lit.tree.heapIndex(level, place), seen, index, rows.rows);
-        for (size_t i = 0; i < kChunk; ++i)
-          rows.expectNear(i, sumOf(leaves, (place + i) << level, (place + i + 1) << level));
-      }
+    for (const size_t count : {kChunk, 2 * kChunk})
+      for (int level = 0; level <= kLevels - 5; ++level)
+        for (size_t place = 0; place < size_t{1} << (kLevels - level); place += count) {
+          Rows rows(count);
+          const auto first = static_cast<uint32_t>(place << level);
+          mergeVertexNodes(lit.light.sums, lit.tree.heapIndex(level, place), count, seen,
+                           findLeaf(seen, 0, 0, first), rows.rows);
+          for (size_t i = 0; i < count; ++i)
+            rows.expectNear(i, sumOf(leaves, (place + i) << level, (place + i + 1) << level));
+        }
   }
 }
 
-TEST(CutIndex, FindsTheNodeOfEveryLeaf) {
-  for (uint64_t seed = 0; seed < 12; ++seed) {
+TEST(CutPlace, IsOfTheNodeOfEveryLeafFromEveryEarlierOne) {
+  for (uint64_t seed = 0; seed < 6; ++seed) {
     const std::vector<CutNode> cut = visibilityCut(seed, 0.9f);
-    CutIndex index;
-    index.set(cut, kLevels);
-    uint32_t leaf = 0;
-    for (size_t i = 0; i < cut.size(); ++i) {
-      const uint32_t first = leaf;
-      for (; leaf < first + (1u << cut[i].level); ++leaf) {
-        EXPECT_EQ(index.find(cut, leaf).node, i);
-        EXPECT_EQ(index.find(cut, leaf).firstLeaf, first);
+    std::vector<CutPlace> places;  // by leaf
+    for (size_t i = 0; i < cut.size(); ++i)
+      places.insert(places.end(), size_t{1} << cut[i].level,
+                    {i, static_cast<uint32_t>(places.size())});
+    for (uint32_t earlier = 0; earlier < places.size(); earlier += 37)
+      for (uint32_t leaf = earlier; leaf < places.size(); leaf += 5) {
+        const CutPlace found = findLeaf(cut, places[earlier].node, earlier, leaf);
+        EXPECT_EQ(found.node, places[leaf].node);
+        EXPECT_EQ(found.firstLeaf, places[leaf].firstLeaf);
       }
-    }
   }
 }
 

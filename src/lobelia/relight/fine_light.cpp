@@ -39,6 +39,7 @@ FineUnits makeFineUnits(const SampleTree& tree, const LightSums& sums, const Lig
     units.chunkCount.push_back(1u << (unitLevel - chunkLevel));
     units.cutBegin.push_back(static_cast<uint32_t>(begin));
     units.cutEnd.push_back(static_cast<uint32_t>(end));
+    units.unitLevel.push_back(static_cast<uint8_t>(unitLevel));
     ++units.count;
   }
   const size_t padded = (units.count + kChunk - 1) / kChunk * kChunk;

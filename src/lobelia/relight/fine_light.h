@@ -24,6 +24,7 @@ struct FineUnits {
   AlignedFloats x, y, z, cosine, sine;
   std::vector<uint32_t> firstNode, chunkCount;  // the fine nodes: heap index, number of chunks
   std::vector<uint32_t> cutBegin, cutEnd;       // the nodes of the cut
+  std::vector<uint8_t> unitLevel;               // of a node that holds the unit
 };
 
 // level: from 0 to levels - log2(kChunk). tree, sums, cut: of one tree over directions.

@@ -74,7 +74,7 @@ size_t FrameTile::placePixels(const VisibilityData& data, size_t first) {
 void FrameTile::shade(const FrameInput& input, size_t first, size_t end, TileCounts* counts) {
   for (size_t i = first; i < end; ++i) {
     const Pixel& pixel = pixels_[i];
-    vertices_.forgetChunksIfMany();
+    vertices_.forgetFineIfMany();
     const Rgb value = radiance(input, pixel) * pixel.weight;
     counts->objectPixels += pixel.hit ? 1 : 0;
     if (isFinite(value)) {

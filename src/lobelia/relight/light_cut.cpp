@@ -99,7 +99,8 @@ LightCut toCut(const LightSums& sums, std::vector<size_t> nodes) {
     cut.begin.push_back(static_cast<uint32_t>(first));
     std::fill_n(cut.atLeaf.begin() + static_cast<std::ptrdiff_t>(first), size_t{1} << level(node),
                 static_cast<uint32_t>(i));
-    cut.r[i] = sums.r[node], cut.g[i] = sums.g[node], cut.b[i] = sums.b[node];
+    const Rgb power = sums.power(node);
+    cut.r[i] = power.x, cut.g[i] = power.y, cut.b[i] = power.z;
     cut.x[i] = sums.x[node], cut.y[i] = sums.y[node], cut.z[i] = sums.z[node];
   }
   cut.begin.push_back(static_cast<uint32_t>(leaves));

@@ -66,12 +66,14 @@ LightSums lightSums(const DistantLight& light, const Mat4& turned, const LightSa
   }
   LightSums sums;
   sums.levels = std::countr_zero(count);
-  for (AlignedFloats* values : {&sums.r, &sums.g, &sums.b, &sums.x, &sums.y, &sums.z})
-    values->resize(2 * count);
+  sums.powers.resize(2 * count);
+  sums.rows.resize(3 * 2 * count);
+  for (AlignedFloats* values : {&sums.x, &sums.y, &sums.z}) values->resize(2 * count);
   parallelFor(2 * count, 1024, [&](size_t i) {
     if (i == 0) return;
     const Gathered& node = nodes[i];
-    sums.r[i] = node.power.x, sums.g[i] = node.power.y, sums.b[i] = node.power.z;
+    sums.powers[i].rgb = node.power;
+    for (size_t c = 0; c < 3; ++c) sums.rows[2 * count * c + i] = node.power[static_cast<int>(c)];
     Vec3f d = node.weighted;
     // Light from all around has no direction; neither does what has rounded away.
     if (!(lengthSquared(d) > 1e-30f)) d = plain[i];

@@ -21,9 +21,15 @@ using AlignedFloats = std::vector<float, tbb::cache_aligned_allocator<float>>;
 // By heap index (sample_tree.h), 2 << levels entries, the first of no meaning.
 struct LightSums {
   int levels = 0;
-  AlignedFloats r, g, b;  // radiance times solid angle, summed over the leaves below
+  // Radiance times solid angle, summed over the leaves below: a node's three numbers in one line of
+  // the cache, since merges look nodes up one by one.
+  struct alignas(16) Power {
+    Rgb rgb{};
+  };
+  std::vector<Power> powers;
+  AlignedFloats rows;     // the same, red after red, then green and blue, for registers of nodes
   AlignedFloats x, y, z;  // unit direction: of the light, or of the samples where there is none
-  Rgb power(size_t node) const { return {r[node], g[node], b[node]}; }
+  Rgb power(size_t node) const { return powers[node].rgb; }
   Vec3f direction(size_t node) const { return {x[node], y[node], z[node]}; }
 };
 

@@ -13,6 +13,7 @@
 
 #if HWY_ONCE
 namespace lobelia {
+HWY_EXPORT(findLit);
 HWY_EXPORT(appendLight);
 HWY_EXPORT(sumLobe);
 HWY_EXPORT(findUnits);
@@ -25,6 +26,10 @@ void DirectedLight::reserve(size_t chunks) {
   for (AlignedFloats* values : {&x, &y, &z, &r, &g, &b}) values->resize(chunks * kChunk, 0.f);
   chunk.resize(chunks);
   lit.resize(chunks);
+}
+
+void findLit(const LightRows& rows, size_t chunkCount, uint16_t* lit) {
+  HWY_DYNAMIC_DISPATCH(lobelia::findLit)(rows, chunkCount, lit);
 }
 
 void appendLight(const VertexLights& lights, size_t chunkCount, Vec3f normal, DirectedLight* out) {

@@ -3,6 +3,8 @@
 // all lanes: no lane waits for another, and small triangles cost no more than large ones.
 #pragma once
 
+#include <algorithm>
+
 #include "lobelia/bsdf/lobe.h"
 #include "lobelia/relight/fine_light.h"
 #include "lobelia/relight/vertex_light.h"
@@ -20,11 +22,23 @@ struct DirectedLight {
   void reserve(size_t chunks);  // room for so many
 };
 
+// The bits of a chunk's nodes that lie in [begin, end).
+inline uint16_t chunkMask(uint32_t chunk, uint32_t begin, uint32_t end) {
+  const uint32_t first = chunk * static_cast<uint32_t>(kChunk);
+  const uint32_t from = begin > first ? begin - first : 0;
+  const uint32_t to = std::min<uint32_t>(end - first, kChunk);
+  return static_cast<uint16_t>((1u << to) - (1u << from));
+}
+
+// For every chunk, a bit for each node that has light.
+void findLit(const LightRows& rows, size_t chunkCount, uint16_t* lit);
+
 // Nodes with their directions, and the light that the pixel's three vertices see of them.
 struct VertexLights {
   const float* direction[3];  // x, y, z of the first node, at whole chunks
-  LightRows rows[3];          // by vertex
+  ConstLightRows rows[3];     // by vertex
   float weight[3];
+  const uint16_t* lit[3];  // by vertex, of findLit(); null: may be anything
 };
 
 // Appends the chunks of [0, chunkCount) that have light in front of the surface; there has to be

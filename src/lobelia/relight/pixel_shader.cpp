@@ -43,9 +43,11 @@ void PixelShader::begin(const FrameLight& light, const EmitterSampler& emitters,
 Rgb PixelShader::reflected(const Bsdf& bsdf, Vec3f wo, const PixelPlace& place) {
   place_ = place;
   normal_ = dot(bsdf.ng, wo) < 0 ? -bsdf.ng : bsdf.ng;
-  VertexLights lights{{light_->cut.x.data(), light_->cut.y.data(), light_->cut.z.data()}, {}, {}};
+  VertexLights lights{
+      {light_->cut.x.data(), light_->cut.y.data(), light_->cut.z.data()}, {}, {}, {}};
   for (size_t v = 0; v < 3; ++v) {
     lights.rows[v] = vertices_->rows(place.slot[v]);
+    lights.lit[v] = vertices_->lit(place.slot[v]);
     lights.weight[v] = place.weight[v];
   }
   coarse_.chunkCount = 0;
@@ -99,37 +101,32 @@ Rgb PixelShader::refinedSum(const LobeQuery& query, const FineUnits& units, floa
 }
 
 // Do the vertices see any light of the unit, on whatever side of the pixel?
-bool PixelShader::isLit(const FineUnits& units, uint32_t unit) {
-  for (size_t v = 0; v < 3; ++v) {
-    const LightRows rows = vertices_->rows(place_.slot[v]);
-    for (size_t c = 0; c < 3; ++c)
-      for (uint32_t i = units.cutBegin[unit]; i < units.cutEnd[unit]; ++i)
-        if (rows.channel(c)[i] != 0) return true;
-  }
-  return false;
+bool PixelShader::isLit(const FineUnits& units, uint32_t unit) const {
+  return std::any_of(std::begin(place_.slot), std::end(place_.slot), [&](uint32_t slot) {
+    return vertices_->isLit(slot, units.cutBegin[unit], units.cutEnd[unit]);
+  });
 }
 
 void PixelShader::excludeNodes(uint32_t begin, uint32_t end) {
-  for (uint32_t i = begin; i < end; ++i) {
-    const uint32_t at = position_[i / kChunk];
-    if (at != kAbsent) masks_[at] = static_cast<uint16_t>(masks_[at] & ~(1u << i % kChunk));
+  for (uint32_t chunk = begin / kChunk; chunk * kChunk < end; ++chunk) {
+    const uint32_t at = position_[chunk];
+    if (at == kAbsent) continue;
+    masks_[at] = static_cast<uint16_t>(masks_[at] & ~chunkMask(chunk, begin, end));
   }
 }
 
 void PixelShader::appendFine(const FineUnits& units, uint32_t unit) {
-  for (uint32_t c = 0; c < units.chunkCount[unit]; ++c) {
-    const uint32_t first = units.firstNode[unit] + c * static_cast<uint32_t>(kChunk);
-    const LightSums& sums = light_->sums;
-    VertexLights lights{
-        {sums.x.data() + first, sums.y.data() + first, sums.z.data() + first}, {}, {}};
-    uint32_t chunk[3];
-    for (size_t v = 0; v < 3; ++v) chunk[v] = vertices_->chunkOf(place_.slot[v], first);
-    for (size_t v = 0; v < 3; ++v) {
-      lights.rows[v] = vertices_->chunkRows(chunk[v]);
-      lights.weight[v] = place_.weight[v];
-    }
-    appendLight(lights, 1, normal_, &fine_);
+  const LightSums& sums = light_->sums;
+  const uint32_t first = units.firstNode[unit];
+  VertexLights lights{
+      {sums.x.data() + first, sums.y.data() + first, sums.z.data() + first}, {}, {}, {}};
+  VertexCache::Fine fine[3];
+  for (size_t v = 0; v < 3; ++v) fine[v] = vertices_->fineOf(place_.slot[v], units, unit);
+  for (size_t v = 0; v < 3; ++v) {
+    lights.rows[v] = vertices_->fineRows(fine[v], units, unit);
+    lights.weight[v] = place_.weight[v] * fine[v].seen;
   }
+  appendLight(lights, units.chunkCount[unit], normal_, &fine_);
 }
 
 Rgb PixelShader::mirrored(const LobeQuery& query) {

@@ -38,7 +38,7 @@ class PixelShader {
   Rgb lobeSum(const LobeQuery& query);
   Rgb refinedSum(const LobeQuery& query, const FineUnits& units, float radius);
   Rgb mirrored(const LobeQuery& query);
-  bool isLit(const FineUnits& units, uint32_t unit);
+  bool isLit(const FineUnits& units, uint32_t unit) const;
   void appendFine(const FineUnits& units, uint32_t unit);
   void excludeNodes(uint32_t begin, uint32_t end);
 

@@ -25,10 +25,27 @@ HWY_INLINE Vf interpolated(const relight::VertexLights& lights, size_t channel, 
   return select(front, sum, Vf(0.f));
 }
 
+inline void findLit(const relight::LightRows& rows, size_t chunkCount, uint16_t* lit) {
+  for (size_t chunk = 0; chunk < chunkCount; ++chunk) {
+    uint32_t bits = 0;
+    for (size_t lane = 0; lane < relight::kChunk; lane += kLanes) {
+      const size_t at = chunk * relight::kChunk + lane;
+      const Mf any = (Vf::load(rows.channel(0) + at) != Vf(0.f)) |
+                     (Vf::load(rows.channel(1) + at) != Vf(0.f)) |
+                     (Vf::load(rows.channel(2) + at) != Vf(0.f));
+      bits |= maskBits(any) << lane;
+    }
+    lit[chunk] = static_cast<uint16_t>(bits);
+  }
+}
+
 inline void appendLight(const relight::VertexLights& lights, size_t chunkCount, Vec3f normal,
                         relight::DirectedLight* out) {
   const V3<Vf> n = splatVector(normal);
   for (size_t chunk = 0; chunk < chunkCount; ++chunk) {
+    if (lights.lit[0] != nullptr &&
+        (lights.lit[0][chunk] | lights.lit[1][chunk] | lights.lit[2][chunk]) == 0)
+      continue;
     const size_t to = out->chunkCount * relight::kChunk;
     uint32_t lit = 0;
     for (size_t lane = 0; lane < relight::kChunk; lane += kLanes) {
@@ -124,12 +141,12 @@ HWY_FLATTEN LightSum sumLobeOf(Tags tags, const relight::LobeQuery& query,
 }
 
 template <LobeType kType, Distribution kDistribution = Distribution::ggx,
-          Fresnel kFresnel = Fresnel::one>
+          Fresnel kFresnel = Fresnel::one, uint8_t kVariant = 0>
 struct FixedTags {
-  HWY_INLINE operator LobeTags() const { return {kType, kDistribution, kFresnel, 0}; }
+  HWY_INLINE operator LobeTags() const { return {kType, kDistribution, kFresnel, kVariant}; }
   static bool equal(const Lobe& lobe) {
     return lobe.type == kType && lobe.distribution == kDistribution && lobe.fresnel == kFresnel &&
-           lobe.variant == 0;
+           lobe.variant == kVariant;
   }
 };
 
@@ -155,6 +172,8 @@ inline Rgb sumLobe(const relight::LobeQuery& query, const relight::DirectedLight
   using enum LobeType;
   const LightSum out =
       sumByKind<FixedTags<lambert>,  //
+                FixedTags<coatedDiffuse>,
+                FixedTags<coatedDiffuse, Distribution::ggx, Fresnel::one, 1>,
                 FixedTags<microfacetReflection, Distribution::ggx, Fresnel::conductor>,
                 FixedTags<microfacetReflection, Distribution::ggx, Fresnel::dielectric>,
                 FixedTags<microfacetReflection, Distribution::ggx, Fresnel::schlick>,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lobelia/relight/pixel_kernels.h"
+
 namespace lobelia::relight {
 
 namespace {
@@ -20,22 +22,21 @@ void VertexCache::begin(const FrameLight& light, const CutSet& cuts, size_t most
   forgotten_ = 0, mergedNodes_ = 0;
   // One pixel's three at least.
   mostVertices_ = std::max<size_t>(mostBytes / (3 * light.cut.padded() * sizeof(float)), 3);
-  mostChunks_ = mostBytes / (3 * kChunk * sizeof(float));
+  mostFine_ = mostBytes / (3 * kChunk * sizeof(float));
 }
 
 void VertexCache::forget() {
   slots_.clear();
-  chunkNumbers_.clear();
+  fineNumbers_.clear();
   vertices_.clear();
-  indices_.clear();
   forgotten_ += merged_;
-  merged_ = 0, chunkCount_ = 0;
+  merged_ = 0, fineCount_ = 0;
 }
 
-void VertexCache::forgetChunksIfMany() {
-  if (chunkCount_ <= mostChunks_) return;
-  chunkNumbers_.clear();
-  chunkCount_ = 0;
+void VertexCache::forgetFineIfMany() {
+  if (fineCount_ <= mostFine_) return;
+  fineNumbers_.clear();
+  fineCount_ = 0;
 }
 
 uint32_t VertexCache::slotOf(uint32_t vertex) {
@@ -48,33 +49,53 @@ uint32_t VertexCache::slotOf(uint32_t vertex) {
 }
 
 void VertexCache::mergeNew() {
-  const size_t each = 3 * light_->cut.padded();
+  const LightCut& light = light_->cut;
+  const size_t each = 3 * light.padded(), chunks = light.padded() / kChunk;
   growTo(vertices_.size() * each, mostVertices_ * each, &rows_);
-  indices_.resize(vertices_.size());
+  starts_.resize(std::max(starts_.size(), vertices_.size() * (light.count + 1)));
+  lit_.resize(std::max(lit_.size(), vertices_.size() * chunks));
   for (; merged_ < vertices_.size(); ++merged_) {
-    const std::span<const CutNode> cut = cuts_->cut(vertices_[merged_]);
-    const LightRows rows = this->rows(static_cast<uint32_t>(merged_));
+    const auto slot = static_cast<uint32_t>(merged_);
+    const LightRows rows = this->rows(slot);
     // What an earlier tile with another cut has left there.
     for (size_t c = 0; c < 3; ++c)
-      std::fill(rows.channel(c) + light_->cut.count, rows.channel(c) + rows.stride, 0.f);
-    mergedNodes_ += mergeVertexLight(light_->sums, light_->cut, cut, rows);
-    indices_[merged_].set(cut, light_->sums.levels);
+      std::fill(rows.channel(c) + light.count, rows.channel(c) + rows.stride, 0.f);
+    const std::span<uint16_t> starts{starts_.data() + merged_ * (light.count + 1), light.count + 1};
+    mergedNodes_ +=
+        mergeVertexLight(light_->sums, light, cuts_->cut(vertices_[slot]), rows, starts);
+    findLit(rows, chunks, lit_.data() + merged_ * chunks);
   }
 }
 
-uint32_t VertexCache::chunkOf(uint32_t slot, uint32_t firstNode) {
-  uint32_t& number = chunkNumbers_[(uint64_t{slot} << 32) | firstNode];
-  if (number != NumberTable::kNone) return number;
-  number = chunkCount_++;
-  growTo(size_t{chunkCount_} * 3 * kChunk, mostChunks_ * 3 * kChunk, &chunks_);
-  mergeVertexChunk(light_->sums, firstNode, cuts_->cut(vertices_[slot]), indices_[slot],
-                   chunkRows(number));
-  return number;
+bool VertexCache::isLit(uint32_t slot, uint32_t begin, uint32_t end) const {
+  const uint16_t* const bits = lit(slot);
+  for (uint32_t i = begin / kChunk; i * kChunk < end; ++i)
+    if ((bits[i] & chunkMask(i, begin, end)) != 0) return true;
+  return false;
+}
+
+VertexCache::Fine VertexCache::fineOf(uint32_t slot, const FineUnits& units, uint32_t unit) {
+  const std::span<const CutNode> cut = cuts_->cut(vertices_[slot]);
+  const uint32_t node = units.cutBegin[unit], leaf = light_->cut.begin[node];
+  const CutPlace at = findLeaf(cut, starts(slot)[node], leaf, leaf);
+  if (cut[at.node].level >= units.unitLevel[unit])
+    return {NumberTable::kNone, static_cast<float>(cut[at.node].value) / 255.f};
+  uint32_t& number = fineNumbers_[(uint64_t{slot} << 32) | units.firstNode[unit]];
+  if (number != NumberTable::kNone) return {number};
+  number = fineCount_;
+  fineCount_ += units.chunkCount[unit];
+  growTo(size_t{fineCount_} * 3 * kChunk, mostFine_ * 3 * kChunk, &fine_);
+  const size_t count = units.chunkCount[unit] * kChunk;
+  mergeVertexNodes(light_->sums, units.firstNode[unit], count, cut, at,
+                   {fine_.data() + size_t{number} * 3 * kChunk, count});
+  return {number};
 }
 
 float VertexCache::visibility(uint32_t slot, uint32_t leaf) const {
   const std::span<const CutNode> cut = cuts_->cut(vertices_[slot]);
-  return static_cast<float>(cut[indices_[slot].find(cut, leaf).node].value) / 255.f;
+  const uint32_t node = light_->cut.atLeaf[leaf];
+  const CutPlace at = findLeaf(cut, starts(slot)[node], light_->cut.begin[node], leaf);
+  return static_cast<float>(cut[at.node].value) / 255.f;
 }
 
 }  // namespace lobelia::relight

@@ -16,95 +16,74 @@ void store(const LightRows& rows, size_t i, Rgb value) {
   rows.values[2 * rows.stride + i] = value.z;
 }
 
-// [begin, end) of the cut's nodes, which are seen alike.
-void scaleRange(const LightCut& cut, size_t begin, size_t end, float visibility,
-                const LightRows& rows) {
-  const float* const from[3] = {cut.r.data(), cut.g.data(), cut.b.data()};
-  for (size_t c = 0; c < 3; ++c) {
-    float* const to = rows.channel(c);
-    for (size_t i = begin; i < end; ++i) to[i] = from[c][i] * visibility;
-  }
-}
-
 }  // namespace
 
-void CutIndex::set(std::span<const CutNode> cut, int levels) {
-  shift_ = std::max(levels - kEntryBits, 0);
-  uint32_t begin = 0;
-  size_t entry = 0;
-  for (size_t i = 0; i < cut.size(); ++i) {
-    const uint32_t end = begin + (1u << cut[i].level);
-    for (; entry < node_.size() && (entry << shift_) < end; ++entry)
-      node_[entry] = static_cast<uint16_t>(i);
-    begin = end;
-  }
-}
-
-CutIndex::Place CutIndex::find(std::span<const CutNode> cut, uint32_t leaf) const {
-  const size_t entry = leaf >> shift_;
-  Place at{node_[entry], 0};
+CutPlace findLeaf(std::span<const CutNode> cut, size_t node, uint32_t earlier, uint32_t leaf) {
   // Nodes begin at multiples of their size.
-  const uint32_t known = static_cast<uint32_t>(entry << shift_);
-  at.firstLeaf = known >> cut[at.node].level << cut[at.node].level;
+  CutPlace at{node, earlier >> cut[node].level << cut[node].level};
   while (at.firstLeaf + (1u << cut[at.node].level) <= leaf)
     at.firstLeaf += 1u << cut[at.node++].level;
   return at;
 }
 
+// Which of the cuts is finer changes from node to node, unpredictably: whatever a branch would
+// choose between is computed or added up in place instead.
 size_t mergeVertexLight(const LightSums& sums, const LightCut& cut,
-                        std::span<const CutNode> visibility, const LightRows& rows) {
+                        std::span<const CutNode> visibility, const LightRows& rows,
+                        std::span<uint16_t> starts) {
+  float* const out[3] = {rows.channel(0), rows.channel(1), rows.channel(2)};
+  for (float* channel : out) std::fill_n(channel, cut.count, 0.f);
+  const auto add = [&](size_t k, Rgb power, float seen) {
+    out[0][k] += power.x * seen, out[1][k] += power.y * seen, out[2][k] += power.z * seen;
+  };
   size_t k = 0;  // of the light cut
   size_t merged = 0;
   uint32_t leaf = 0;
-  Rgb inside{};  // of the light cut's node that the visibility cut divides
-  for (const CutNode node : visibility) {
+  starts[0] = 0;
+  for (size_t i = 0; k < cut.count; ++i) {
+    const CutNode node = visibility[i];
     const uint32_t end = leaf + (1u << node.level);
     const float seen = visibilityOf(node);
-    if (node.level >= cut.nodes[k].level) {  // holds this one, and perhaps more
-      const size_t stop = cut.atLeaf[end];
-      scaleRange(cut, k, stop, seen, rows);
-      merged += stop - k;
-      k = stop;
-    } else {
-      const size_t heap = (size_t{1} << (sums.levels - node.level)) + (leaf >> node.level);
-      if (node.value != 0) inside += sums.power(heap) * seen;
-      ++merged;
-      if (end == cut.begin[k + 1]) {
-        store(rows, k++, inside);
-        inside = {};
-      }
+    const bool inside = node.level < cut.nodes[k].level;
+    const size_t own = (size_t{1} << (sums.levels - node.level)) + (leaf >> node.level);
+    add(k, sums.power(inside ? own : cut.heap[k]), seen);
+    ++merged;
+    const bool ends = end >= cut.begin[k + 1];
+    k += ends ? 1 : 0;
+    for (const uint32_t stop = ends ? end : 0; cut.begin[k] < stop; ++k, ++merged) {
+      add(k, sums.power(cut.heap[k]), seen);
+      starts[k] = static_cast<uint16_t>(i);
     }
+    starts[k] = ends ? static_cast<uint16_t>(i + 1) : starts[k];
     leaf = end;
-    if (k == cut.count) break;
   }
   return merged;
 }
 
-void mergeVertexChunk(const LightSums& sums, size_t firstNode, std::span<const CutNode> visibility,
-                      const CutIndex& index, const LightRows& rows) {
+void mergeVertexNodes(const LightSums& sums, size_t firstNode, size_t count,
+                      std::span<const CutNode> visibility, CutPlace from, const LightRows& rows) {
   const int depth = static_cast<int>(std::bit_width(firstNode)) - 1, level = sums.levels - depth;
   const uint32_t first = static_cast<uint32_t>((firstNode - (size_t{1} << depth)) << level);
-  CutIndex::Place at = index.find(visibility, first);
-  for (size_t i = 0; i < kChunk;) {
-    const CutNode node = visibility[at.node];
+  for (size_t i = 0; i < count;) {
+    const CutNode node = visibility[from.node];
     const uint32_t begin = first + static_cast<uint32_t>(i << level), end = begin + (1u << level);
-    const uint32_t nodeEnd = at.firstLeaf + (1u << node.level);
+    const uint32_t nodeEnd = from.firstLeaf + (1u << node.level);
     if (node.level >= level) {
-      const size_t stop = std::min<size_t>(kChunk, (nodeEnd - first) >> level);
+      const size_t stop = std::min<size_t>(count, (nodeEnd - first) >> level);
       const float seen = visibilityOf(node);
       for (; i < stop; ++i) store(rows, i, sums.power(firstNode + i) * seen);
     } else {
       Rgb inside{};
-      for (; at.firstLeaf < end; at.firstLeaf += 1u << visibility[at.node++].level) {
-        const CutNode finer = visibility[at.node];
+      for (; from.firstLeaf < end; from.firstLeaf += 1u << visibility[from.node++].level) {
+        const CutNode finer = visibility[from.node];
         const size_t heap =
-            (size_t{1} << (sums.levels - finer.level)) + (at.firstLeaf >> finer.level);
-        if (finer.value != 0) inside += sums.power(heap) * visibilityOf(finer);
+            (size_t{1} << (sums.levels - finer.level)) + (from.firstLeaf >> finer.level);
+        inside += sums.power(heap) * visibilityOf(finer);
       }
       store(rows, i++, inside);
       continue;
     }
-    at.firstLeaf = nodeEnd, ++at.node;
+    from.firstLeaf = nodeEnd, ++from.node;
   }
 }
 

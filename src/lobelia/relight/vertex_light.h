@@ -9,7 +9,6 @@
 // at the merged nodes.
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "lobelia/relight/light_cut.h"
@@ -17,38 +16,35 @@
 namespace lobelia::relight {
 
 // Rows of floats: red, green and blue, `stride` apart.
-struct LightRows {
-  float* values = nullptr;
+template <class Float>
+struct RowsOf {
+  Float* values = nullptr;
   size_t stride = 0;
-  float* channel(size_t c) const { return values + c * stride; }
+  Float* channel(size_t c) const { return values + c * stride; }
+  operator RowsOf<const Float>() const { return {values, stride}; }
 };
-
-// Where a cut's nodes begin, so that any leaf's is found in a few steps.
-class CutIndex {
- public:
-  static constexpr int kEntryBits = 7;
-  void set(std::span<const CutNode> cut, int levels);
-  // The node that holds a leaf.
-  struct Place {
-    size_t node = 0;
-    uint32_t firstLeaf = 0;
-  };
-  Place find(std::span<const CutNode> cut, uint32_t leaf) const;
-
- private:
-  int shift_ = 0;
-  std::array<uint16_t, size_t{1} << kEntryBits> node_{};  // that holds the first leaf of each part
-};
+using LightRows = RowsOf<float>;
+using ConstLightRows = RowsOf<const float>;
 
 // Visible light of every node of the light cut; visibility: a cut of the same tree. rows: of
-// cut.padded() floats at least, whose entries from cut.count on are not written. Returns the number
-// of merged nodes.
+// cut.padded() floats at least, whose entries from cut.count on are not written. starts: of
+// cut.count + 1 entries, for each node of the light cut the index of the visibility cut's node in
+// which it begins (the last entry has no meaning). Returns the number of merged nodes.
 size_t mergeVertexLight(const LightSums& sums, const LightCut& cut,
-                        std::span<const CutNode> visibility, const LightRows& rows);
+                        std::span<const CutNode> visibility, const LightRows& rows,
+                        std::span<uint16_t> starts);
 
-// The same of kChunk neighbouring nodes of one level, from heap index firstNode (a multiple of
-// kChunk) on.
-void mergeVertexChunk(const LightSums& sums, size_t firstNode, std::span<const CutNode> visibility,
-                      const CutIndex& index, const LightRows& rows);
+// Where to begin in a visibility cut: a node, and its first leaf.
+struct CutPlace {
+  size_t node = 0;
+  uint32_t firstLeaf = 0;
+};
+// The node that holds `leaf`, from a node on that holds an earlier leaf (or this one).
+CutPlace findLeaf(std::span<const CutNode> cut, size_t node, uint32_t earlier, uint32_t leaf);
+
+// The same of `count` neighbouring nodes of one level, from heap index firstNode on; from: the
+// visibility cut's node that holds the first leaf of them.
+void mergeVertexNodes(const LightSums& sums, size_t firstNode, size_t count,
+                      std::span<const CutNode> visibility, CutPlace from, const LightRows& rows);
 
 }  // namespace lobelia::relight
