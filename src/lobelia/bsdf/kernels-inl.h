@@ -65,10 +65,11 @@ LOBELIA_HD V3<F> unitVector(V3<F> a) {
 template <class F>
 LOBELIA_HD F fresnelDielectric(F cosine, F eta) {
   const F c = max(cosine, F(1e-7f));
-  const F ct = sqrt(max(F(0.f), F(1.f) - (F(1.f) - c * c) / (eta * eta)));
-  const F rs = (c - eta * ct) / (c + eta * ct);
-  const F rp = (ct - eta * c) / (ct + eta * c);
-  const F r = F(0.5f) * (rs * rs + rp * rp);
+  const F ct = sqrt(max(F(0.f), F(1.f) - (F(1.f) - c * c) * (F(1.f) / (eta * eta))));
+  // (a / b)^2 and (d / e)^2 are the reflectances of both polarisations; one division for both.
+  const F a = c - eta * ct, b = c + eta * ct, d = ct - eta * c, e = ct + eta * c;
+  const F ae = a * e, bd = b * d, be = b * e;
+  const F r = F(0.5f) * (ae * ae + bd * bd) / (be * be);
   return select(abs(eta - F(1.f)) < F(1e-6f), F(0.f), r);
 }
 
@@ -82,11 +83,10 @@ LOBELIA_HD F fresnelConductorChannel(F cosine, F eta, F k) {
   const F a = sqrt(max(F(0.f), F(0.5f) * (a2b2 + t0)));
   const F t1 = a2b2 + c2;
   const F t2 = F(2.f) * cosine * a;
-  const F rs = (t1 - t2) / max(t1 + t2, F(1e-20f));
   const F t3 = a2b2 * c2 + s2 * s2;
   const F t4 = t2 * s2;
-  const F rp = rs * (t3 - t4) / max(t3 + t4, F(1e-20f));
-  return F(0.5f) * (rs + rp);
+  // Their (rs + rp) / 2 with rs = (t1 - t2) / (t1 + t2) and rp = rs (t3 - t4) / (t3 + t4).
+  return (t1 - t2) * t3 / max((t1 + t2) * (t3 + t4), F(1e-20f));
 }
 template <class F>
 LOBELIA_HD V3<F> fresnelConductor(F cosine, V3<F> eta, V3<F> k) {
@@ -144,12 +144,10 @@ LOBELIA_HD V3<F> fresnelReflectance(Fresnel fresnel, const LobeParameters<F>& p,
   return splat(F(1.f));
 }
 
-// ---- Microfacet distributions
-// --------------------------------------------------------------------
+// ---- Microfacet distributions ------------------------------------------------------------------
 
-// Integral of exp(sharpness (m.z - 1)) m.z over the hemisphere: 2 pi (1 - (1 - e^-s) / s) / s. For
-// s
-// >= 1/2.
+// Integral of exp(s (m.z - 1)) m.z over the hemisphere: 2 pi (1 - (1 - e^-s) / s) / s, for a
+// sharpness s of 1/2 and more.
 template <class F>
 LOBELIA_HD F sgProjectedIntegral(F sharpness) {
   return F(2.f * 3.14159265358979f) * (F(1.f) - expRatio(sharpness)) / sharpness;
@@ -219,8 +217,7 @@ LOBELIA_HD F smithMasking(Distribution distribution, F alphaX, F alphaY, V3<F> v
   return F(2.f) / (F(1.f) + sqrt(F(1.f) + t2));
 }
 
-// ---- Sides
-// ---------------------------------------------------------------------------------------
+// ---- Sides -------------------------------------------------------------------------------------
 
 // wo and wi mirrored so that wo.z > 0; `active` is 0 where a one-sided lobe is seen from behind.
 template <class F>
@@ -240,7 +237,7 @@ LOBELIA_HD SidedPair<F> toFront(F sides, V3<F> wo, V3<F> wi) {
 }
 
 // ---- Lobes: one function per type
-// ------------------------------------------------------------------ Directions have been through
+// ----------------------------------------------------------------- Directions have been through
 // toFront().
 
 template <class F>
@@ -284,23 +281,39 @@ LOBELIA_HD V3<F> evaluatePrincipledDiffuse(const LobeParameters<F>& p, const Sid
   return p.weight * (p.k * f + p.tint * (sheen * schlickWeight(abs(cd)))) * ci;
 }
 
+// Density times both directions' masking over four cosines, times the cosine of wi: for GGX with
+// one division, since all of it is rational but for the lengths. wi.z > 0.
+template <class F>
+LOBELIA_HD F ggxReflection(const LobeParameters<F>& p, const SidedPair<F>& d, V3<F> h, F hh) {
+  const F ax = p.alphaX, ay = p.alphaY;
+  const F x = h.x * (F(1.f) / ax), y = h.y * (F(1.f) / ay);
+  const F e = x * x + y * y + h.z * h.z;
+  const F constant = F(0.5f / 3.14159265358979f) / (ax * ay * d.wo.z) *
+                     smithMasking(Distribution::ggx, ax, ay, d.wo);
+  const F sx = ax * d.wi.x, sy = ay * d.wi.y, z = d.wi.z;
+  const F masking = z + sqrt(z * z + sx * sx + sy * sy);
+  return constant * hh * hh * z / max(e * e * masking, F(1e-35f));
+}
+
 template <class F>
 LOBELIA_HD V3<F> evaluateMicrofacetReflection(Distribution distribution, Fresnel fresnel,
                                               const LobeParameters<F>& p, const SidedPair<F>& d) {
-  const V3<F> h = unitVector(d.wo + d.wi);
-  const F cosine = dot(d.wo, h);
-  const F density = microfacetDensity(distribution, p.alphaX, p.alphaY, h);
-  const F g = smithMasking(distribution, p.alphaX, p.alphaY, d.wo) *
-              smithMasking(distribution, p.alphaX, p.alphaY, d.wi);
+  const V3<F> sum = d.wo + d.wi;
+  const F sumSquared = dot(sum, sum);
+  const F cosine = F(0.5f) * sqrt(sumSquared);  // of the micro-normal, which lies midway
   const V3<F> f = fresnelReflectance(fresnel, p, cosine, d.back);
-  F v = density * g;
-  if (distribution == Distribution::gtr1) {
-    v = v * d.wi.z;
+  F v;
+  if (distribution == Distribution::ggx) {
+    v = ggxReflection(p, d, sum, sumSquared);
   } else {
-    v = v / (F(4.f) * d.wo.z);
-    // Mitsuba's principled lobe vanishes with its dielectric term.
-    if (fresnel == Fresnel::principled) v = select(abs(p.eta.x - F(1.f)) < F(1e-6f), F(0.f), v);
+    const V3<F> h = unitVector(sum);
+    const F g = smithMasking(distribution, p.alphaX, p.alphaY, d.wo) *
+                smithMasking(distribution, p.alphaX, p.alphaY, d.wi);
+    v = microfacetDensity(distribution, p.alphaX, p.alphaY, h) * g;
+    v = distribution == Distribution::gtr1 ? v * d.wi.z : v / (F(4.f) * d.wo.z);
   }
+  // Mitsuba's principled lobe vanishes with its dielectric term.
+  if (fresnel == Fresnel::principled) v = select(abs(p.eta.x - F(1.f)) < F(1e-6f), F(0.f), v);
   v = select(d.wi.z > F(0.f), select(cosine > F(0.f), v, F(0.f)), F(0.f));
   return p.weight * f * v;
 }
@@ -416,8 +429,7 @@ LOBELIA_HD V3<F> throughLayers(LobeTags tags, const LobeParameters<F>& p, const 
   return v * (select(d.back > F(0.5f), F(1.f), o) * select(wiOutside > F(0.5f), i, F(1.f)));
 }
 
-// ---- Dispatch
-// --------------------------------------------------------------------------------------
+// ---- Dispatch ----------------------------------------------------------------------------------
 
 // f(wo, wi) |cos(wi, n)| of one lobe, for radiance; see the head. Delta lobes and `null` are zero.
 template <class F, class Table>
