@@ -236,9 +236,9 @@ LOBELIA_HD SidedPair<F> toFront(F sides, V3<F> wo, V3<F> wi) {
   return r;
 }
 
-// ---- Lobes: one function per type
-// ----------------------------------------------------------------- Directions have been through
-// toFront().
+// ---- Lobes: one function per type --------------------------------------------------------------
+
+// Directions have been through toFront().
 
 template <class F>
 LOBELIA_HD V3<F> evaluateLambert(const LobeParameters<F>& p, const SidedPair<F>& d) {

@@ -49,11 +49,12 @@ std::optional<LobeReach> lobeReach(const Lobe& lobe, int levels, Lobe* widened) 
   const float nodes = kNodeOverAlpha * std::min(x, y) / leafRadius;  // in leaves' radii
   LobeReach reach;
   reach.level = std::max(0, static_cast<int>(std::floor(2 * std::log2(nodes) + 1e-3f)));
-  reach.radius = std::min(4 * std::sqrt(2.f) * std::max(x, y), kPi);
   const bool tailed =
       lobe.type == LobeType::microfacetReflection &&
       (lobe.distribution == Distribution::ggx || lobe.distribution == Distribution::gtr1);
-  reach.ends = !tailed && reach.radius < kPi / 2;
+  const float deviation = std::sqrt(2.f) * std::max(x, y);
+  reach.radius = std::min((tailed ? 2.5f : 3) * deviation, kPi);
+  if (!tailed && 4 * deviation < kPi / 2) reach.end = 4 * deviation;
   return reach;
 }
 

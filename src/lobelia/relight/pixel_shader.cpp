@@ -71,9 +71,9 @@ Rgb PixelShader::lobeSum(const LobeQuery& query) {
   const std::optional<LobeReach> reach = lobeReach(*query.lobe, light_->sums.levels, &widened);
   LobeQuery smooth = query;
   smooth.lobe = &widened;
-  if (reach && reach->ends) {
+  if (reach && reach->end < kPi) {
     smooth.mirror = mirrorDirection(query);
-    smooth.leastCosine = std::cos(reach->radius);
+    smooth.leastCosine = std::cos(reach->end);
   }
   if (refined_ && reach && static_cast<size_t>(reach->level) < light_->fine.size()) {
     const FineUnits& units = light_->fine[static_cast<size_t>(reach->level)];
