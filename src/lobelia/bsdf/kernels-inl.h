@@ -217,6 +217,16 @@ LOBELIA_HD F smithMasking(Distribution distribution, F alphaX, F alphaY, V3<F> v
   return F(2.f) / (F(1.f) + sqrt(F(1.f) + t2));
 }
 
+// ---- Bump and normal maps
+// ------------------------------------------------------------------------
+
+// bumpShadow() of bsdf/bsdf.h: cosine to the normal before the map, alpha2 of the frame.
+template <class F>
+LOBELIA_HD F bumpShadowing(F cosine, F alpha2) {
+  const F c2 = max(cosine * cosine, F(1e-20f));
+  return F(2.f) / (F(1.f) + sqrt(F(1.f) + alpha2 * (F(1.f) - c2) / c2));
+}
+
 // ---- Sides -------------------------------------------------------------------------------------
 
 // wo and wi mirrored so that wo.z > 0; `active` is 0 where a one-sided lobe is seen from behind.

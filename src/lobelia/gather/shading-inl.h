@@ -45,12 +45,9 @@ HWY_INLINE Vf lightFactor(const g::PreparedLight& light, V3<Vf> wi, Vf inverseDi
   return geometry;
 }
 
-// bumpShadow() of bsdf/bsdf.h.
 HWY_INLINE Vf bumpShadow(const g::PointStrip& strip, size_t lane, V3<Vf> wi) {
   if (!strip.perturbed) return Vf(1.f);
-  const Vf c = dot(load(strip.base, lane), wi), c2 = max(c * c, Vf(1e-20f));
-  const Vf alpha2 = Vf::load(strip.bumpAlpha2 + lane);
-  return Vf(2.f) / (Vf(1.f) + sqrt(Vf(1.f) + alpha2 * (Vf(1.f) - c2) / c2));
+  return bumpShadowing(dot(load(strip.base, lane), wi), Vf::load(strip.bumpAlpha2 + lane));
 }
 
 // rich_shading-inl.h

@@ -427,9 +427,8 @@ class SphereSamples {
  private:
   // bumpShadow() of bsdf/bsdf.h, and the agreement of the two normals.
   HWY_INLINE Vf bumpFactor(V3<Vf> l) const {
-    const Vf c = dot(load(strip_.base, lane_), l), c2 = max(c * c, Vf(1e-20f));
-    const Vf alpha2 = Vf::load(strip_.bumpAlpha2 + lane_);
-    const Vf shadow = Vf(2.f) / (Vf(1.f) + sqrt(Vf(1.f) + alpha2 * (Vf(1.f) - c2) / c2));
+    const Vf c = dot(load(strip_.base, lane_), l);
+    const Vf shadow = bumpShadowing(c, Vf::load(strip_.bumpAlpha2 + lane_));
     return select(c * dot(load(strip_.n, lane_), l) > Vf(0.f), shadow, Vf(0.f));
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lobelia/bsdf/albedo.h"
+#include "lobelia/bsdf/bsdf.h"
 #include "lobelia/bsdf/lobe_kind.h"
 #include "lobelia/relight/lobe_reach.h"
 
@@ -21,8 +22,7 @@ Vec3f mirrorDirection(const LobeQuery& query) {
 float bumpFactor(const LobeQuery& query, Vec3f wi) {
   if (!query.frame->perturbed) return 1;
   if (dot(wi, query.baseNormal) * dot(wi, query.frame->n) <= 0) return 0;
-  const float c2 = std::max(sqr(dot(wi, query.baseNormal)), 1e-20f);
-  return 2 / (1 + std::sqrt(1 + query.frame->bumpAlpha2 * (1 - c2) / c2));
+  return bumpShadow(query.baseNormal, query.frame->bumpAlpha2, wi);
 }
 
 }  // namespace

@@ -89,10 +89,8 @@ struct LayerTable {
 // What bsdf/bsdf.cpp asks of directions at a surface with bump or normal maps: the same side of
 // both normals (agrees()), and the softened terminator (bumpShadow()).
 HWY_INLINE Vf bumpFactor(const ShadingFrame& frame, Vec3f baseNormal, V3<Vf> wi, Vf cosine) {
-  const Vf c = dot(splatVector(baseNormal), wi), c2 = max(c * c, Vf(1e-20f));
-  const Vf shadow =
-      Vf(2.f) / (Vf(1.f) + sqrt(Vf(1.f) + Vf(frame.bumpAlpha2) * (Vf(1.f) - c2) / c2));
-  return select(c * cosine > Vf(0.f), shadow, Vf(0.f));
+  const Vf c = dot(splatVector(baseNormal), wi);
+  return select(c * cosine > Vf(0.f), bumpShadowing(c, Vf(frame.bumpAlpha2)), Vf(0.f));
 }
 
 struct LightSum {
