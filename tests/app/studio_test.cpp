@@ -153,6 +153,7 @@ TEST_F(StudioTest, StandsThousandsOfRapidEdits) {
   studio->setView(sized(studio->view()));
   Rng random(5);
   const uint32_t m = paint(*studio);
+  const Material original = studio->design().materials[m];
   const auto types = simpleTypes();
   for (int i = 0; i < 4000; ++i) {
     switch (random.nextUint() % 8) {
@@ -195,13 +196,29 @@ TEST_F(StudioTest, StandsThousandsOfRapidEdits) {
       studio->newestPicture();
     }
   }
-  while (studio->history().canUndo()) studio->undo();
+  studio->edit("as it was", [&](Design& d) { d.materials[m] = original, d.rotation = 0; });
   ViewState view = sized(studio->view());
   view.method = ViewMethod::cuts, view.truth = false;
   studio->setView(view);
   ASSERT_TRUE(settle(*studio));
+  ASSERT_NE(studio->newestPicture(), nullptr) << said(*studio);
   EXPECT_EQ(studio->newestPicture()->film.width, 16);
   EXPECT_EQ(countNonFinite(studio->newestPicture()->film), 0u);
+}
+
+// The first edit, before there was any picture.
+TEST_F(StudioTest, CutsShowTheSceneWhereTheyHaveShownNothing) {
+  const auto studio = open(true);
+  const uint32_t m = paint(*studio);
+  studio->edit("glass", [&](Design& d) { changeType(d, m, MaterialType::dielectric); });
+  studio->setView(sized(studio->view()));
+  ASSERT_TRUE(settle(*studio));
+  EXPECT_NE(said(*studio).find("from behind"), std::string::npos);
+  ASSERT_NE(studio->newestPicture(), nullptr);
+  const auto refused = studio->newestPicture();
+  studio->undo();
+  ASSERT_TRUE(settle(*studio));
+  EXPECT_EQ(studio->newestPicture()->film.layers.at("").values, refused->film.layers.at("").values);
 }
 
 TEST_F(StudioTest, EndsInTheMiddleOfAPass) {

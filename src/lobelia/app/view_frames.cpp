@@ -68,7 +68,7 @@ ViewFrames::ViewFrames(const ViewOptions& options, const std::string& commandLin
       plan_(planFrames(stage_.scene(), options.render, true)),
       history_(turnedDesign(stage_.scene(), options.rotate)),
       first_(history_.share()),
-      maker_(stage_, options.render.seed) {
+      maker_(stage_, first_, options.render.seed) {
   if (stage_.data() != nullptr) warnOfMissing(stage_.scene(), context_);
   view_.lightCut = options.lightCut;
   view_.refined = !options.plainLobes;

@@ -185,7 +185,7 @@ bool Studio::update() {
 }
 
 void Studio::work() {
-  PictureMaker maker(*stage_, seed_);
+  PictureMaker maker(*stage_, first_, seed_);
   Job job;
   Wanted wanted;
   for (;;) {
