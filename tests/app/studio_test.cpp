@@ -271,14 +271,17 @@ TEST_F(StudioTest, MissingFilesAreMessages) {
   studio->loadDesign(file("none.xml"));
   studio->saveDesign(file("no/folder/design.xml"));
   studio->screenshot(file("picture.exr"), {});
+  studio->saveDesign(file("scene.xml"));
   writeText(file("noimage.exr"), "no image");
   studio->loadEnvironment(file("noimage.exr"));
   ASSERT_TRUE(loopUntil(*studio, [&] { return studio->openFiles() == 0; }));
   const auto messages = studio->takeMessages();
-  ASSERT_EQ(messages.size(), 7u);
+  ASSERT_EQ(messages.size(), 8u);
   for (const StudioMessage& m : messages) EXPECT_EQ(m.severity, Severity::error) << m.text;
   EXPECT_NE(messages[0].text.find("none.exr"), std::string::npos) << messages[0].text;
   EXPECT_NE(messages[5].text.find("no picture"), std::string::npos) << messages[5].text;
+  EXPECT_NE(messages[6].text.find("over what is read"), std::string::npos) << messages[6].text;
+  EXPECT_EQ(readText(file("scene.xml")), kScene);
   EXPECT_EQ(studio->history().share(), before);
 }
 

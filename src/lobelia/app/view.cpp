@@ -44,7 +44,8 @@ void requireView(const ViewOptions& options) {
 
 void addViewOptions(CLI::App& c, ViewOptions& o) {
   addSceneOptions(c, o.render.scene);
-  c.add_option("--data", o.data, "Visibility of the scene, by `lobelia precompute`")
+  c.add_option("--data", o.data,
+               "Visibility of the scene, by `lobelia precompute`; needed for cuts")
       ->type_name("FILE");
   c.add_option("--script", o.script, "Camera moves, edits and frames, one a line (docs/manual.md)")
       ->type_name("FILE");

@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "lobelia/app/frame_setup.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/studio/design_files.h"
 #include "lobelia/app/studio/material_edits.h"
@@ -25,6 +26,7 @@ Studio::Studio(const StudioSettings& settings, Context& context)
     : stage_(std::make_unique<Stage>(loadScene(settings.scene, context), settings.data, context)),
       seed_(settings.seed),
       strict_(settings.scene.strict),
+      inputs_{settings.scene.scene, settings.data, settings.scene.environment},
       hasCuts_(stage_->data() != nullptr),
       name_(stage_->scene().name),
       bounds_(stage_->tracer().bounds()),
@@ -121,6 +123,7 @@ void Studio::loadDesign(const std::string& file) {
 void Studio::saveDesign(const std::string& file) {
   desk_.give(
       [this, file, now = history_.share(), camera = view_.camera](Stage& stage, Context& context) {
+        requireNoInput({file}, inputs_);
         stage.show(now, Stage::Use::paths, {}, context);
         stage.save(file, *first_, camera);
         context.info("wrote " + file);
@@ -129,8 +132,9 @@ void Studio::saveDesign(const std::string& file) {
 
 void Studio::screenshot(const std::string& file, const DisplaySettings& display) {
   const std::shared_ptr<const Picture> picture = newestPicture(), truth = newestTruth();
-  desk_.give([file, display, picture, truth](Stage&, Context& context) {
+  desk_.give([this, file, display, picture, truth](Stage&, Context& context) {
     if (!picture) throw UsageError("there is no picture yet");
+    requireNoInput({file}, inputs_);
     writeScreenshot(file, *picture, truth.get(), display);
     context.info("wrote " + file);
   });

@@ -105,7 +105,9 @@ class Studio {
 
   std::unique_ptr<Stage> stage_;  // the worker's
   const uint64_t seed_;
-  const bool strict_, hasCuts_;
+  const bool strict_;
+  const std::vector<std::string> inputs_;  // files that are not written over
+  const bool hasCuts_;
   const std::string name_;
   const Bounds3f bounds_;
   History history_;
