@@ -16,6 +16,7 @@
 #include "lobelia/app/signals.h"
 #include "lobelia/app/view_script.h"
 #include "lobelia/app/view_statistics.h"
+#include "lobelia/app/viewer/window_run.h"
 #include "lobelia/base/parallel.h"
 #include "lobelia/relight/frame.h"
 
@@ -23,11 +24,15 @@ namespace lobelia::app {
 namespace {
 
 void requireView(const ViewOptions& options) {
-  if (!options.headless) {
-    throw UsageError(
-        "this build draws without a window: add --headless, and -o FILE for the pictures");
-  }
   const RenderOptions& render = options.render;
+  if (!options.uiScript.empty())
+    throw UsageError(
+        "--ui-script plays at the window, which --headless has not; --script is for "
+        "frames without one");
+  if (options.data.empty())
+    throw UsageError(
+        "--headless draws from precomputed visibility: give --data FILE, made by "
+        "`lobelia precompute SCENE --method cuts -o FILE`");
   if (!options.script.empty() &&
       (options.rotateStep != 0 || render.frames > 0 || render.turntable || !render.frame.empty()))
     throw UsageError(
@@ -209,11 +214,13 @@ class Frames {
 void addViewOptions(CLI::App& c, ViewOptions& o) {
   addSceneOptions(c, o.render.scene);
   c.add_option("--data", o.data, "Visibility of the scene, by `lobelia precompute`")
-      ->type_name("FILE")
-      ->required();
+      ->type_name("FILE");
+  c.add_option("--ui-script", o.uiScript,
+               "Plays mouse and keys at the window, then closes it (docs/manual.md)")
+      ->type_name("FILE");
   c.add_option("--script", o.script, "Camera moves, edits and frames, one a line (docs/manual.md)")
       ->type_name("FILE");
-  c.add_flag("--headless", o.headless, "Draw without a window (the only way so far)");
+  c.add_flag("--headless", o.headless, "Draw without a window");
   c.add_option("-o,--output", o.render.outputs,
                "Picture to write: .exr (linear), .png (tone-mapped)")
       ->type_name("FILE")
@@ -248,6 +255,7 @@ void addViewOptions(CLI::App& c, ViewOptions& o) {
 
 ExitCode view(const ViewOptions& options, const GlobalOptions& global,
               const std::string& commandLine) {
+  if (!options.headless) return runWindow(options, global, commandLine);
   requireView(options);
   const ThreadLimit threads(global.threads);
   Console console(global.verbosity());
