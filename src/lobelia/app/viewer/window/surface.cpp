@@ -72,15 +72,32 @@ void Surface::open(Vec2i pixels) {
   gl_ = GlFunctions::load();
   gl_.getIntegerv(GL_MAX_TEXTURE_SIZE, &largestTexture_);
   glfwSwapInterval(1);
-  glfwSetWindowUserPointer(window_, this);
-  glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
-    auto* surface = static_cast<Surface*>(glfwGetWindowUserPointer(window));
-    surface->dropped_.insert(surface->dropped_.end(), files, files + count);
-  });
+  listen();
   if (!ImGui_ImplGlfw_InitForOpenGL(window_, true) || !ImGui_ImplOpenGL3_Init(kGlsl))
     refuse("the panels cannot be drawn by this OpenGL");
   texture_ = std::make_unique<PictureTexture>(gl_);
   styleText();
+}
+
+// Dear ImGui's callbacks, which come after, call these.
+void Surface::listen() {
+  glfwSetWindowUserPointer(window_, this);
+  static constexpr auto of = [](GLFWwindow* window) {
+    return static_cast<Surface*>(glfwGetWindowUserPointer(window));
+  };
+  glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** files) {
+    of(w)->dropped_.insert(of(w)->dropped_.end(), files, files + count);
+    of(w)->input_ = true;
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { of(w)->input_ = true; });
+  glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { of(w)->input_ = true; });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { of(w)->input_ = true; });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { of(w)->input_ = true; });
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int, int, int, int) { of(w)->input_ = true; });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { of(w)->input_ = true; });
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { of(w)->input_ = true; });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { of(w)->input_ = true; });
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { of(w)->input_ = true; });
 }
 
 void Surface::close() {
@@ -116,13 +133,23 @@ void Surface::wake() { glfwPostEmptyEvent(); }
 
 Vec2i Surface::pixels() const {
   Vec2i size;
-  glfwGetFramebufferSize(window_, &size.x, &size.y);
+  if (!pretendedEmpty_) glfwGetFramebufferSize(window_, &size.x, &size.y);
   return size;
 }
 
 bool Surface::drawable() const {
   const Vec2i size = pixels();
   return size.x > 0 && size.y > 0 && !glfwGetWindowAttrib(window_, GLFW_ICONIFIED);
+}
+
+void Surface::resize(Vec2i wanted) {
+  pretendedEmpty_ = wanted.x <= 0 || wanted.y <= 0;
+  const float scale = pixelScale();
+  const auto units = [&](int length) {
+    return std::max(static_cast<int>(static_cast<float>(length) / scale), 1);
+  };
+  if (!pretendedEmpty_) glfwSetWindowSize(window_, units(wanted.x), units(wanted.y));
+  input_ = true;
 }
 
 float Surface::pixelScale() const {
@@ -162,7 +189,8 @@ std::vector<uint8_t> Surface::read() const {
 }
 
 bool Surface::lost() const {
-  return pretended_ || (gl_.getGraphicsResetStatus && gl_.getGraphicsResetStatus() != GL_NO_ERROR);
+  return pretendedLost_ ||
+         (gl_.getGraphicsResetStatus && gl_.getGraphicsResetStatus() != GL_NO_ERROR);
 }
 
 void Surface::recreate() {
@@ -171,7 +199,7 @@ void Surface::recreate() {
   int x = 0, y = 0;
   glfwGetWindowPos(window_, &x, &y);
   close();
-  pretended_ = false;
+  pretendedLost_ = false;
   textScale_ = 0;
   open(size);
   glfwSetWindowPos(window_, x, y);

@@ -32,11 +32,16 @@ class Surface {
   void wait(double seconds);
   static void wake();  // from any thread
 
+  // Did mouse, keys or the window's size change since the last call?
+  bool takeInput() { return std::exchange(input_, false); }
+
   // Of the framebuffer; 0 when minimised.
   Vec2i pixels() const;
   bool drawable() const;
   // Framebuffer pixels to a unit of Dear ImGui.
   float pixelScale() const;
+  // To so many pixels; a side of 0 is pretended, since window systems have none.
+  void resize(Vec2i pixels);
   int largestTexture() const { return largestTexture_; }
 
   // Tells Dear ImGui what there is of input; ImGui::NewFrame() follows.
@@ -48,8 +53,8 @@ class Surface {
 
   PictureTexture& texture() { return *texture_; }
   bool lost() const;
-  void recreate();                           // throws as the constructor does
-  void pretendLost() { pretended_ = true; }  // for tests: as a driver would say it
+  void recreate();                               // throws as the constructor does
+  void pretendLost() { pretendedLost_ = true; }  // for tests: as a driver would say it
 
   // Files that were dropped since the last call.
   std::vector<std::string> takeDropped() { return std::exchange(dropped_, {}); }
@@ -57,6 +62,7 @@ class Surface {
  private:
   void open(Vec2i pixels);
   void close();
+  void listen();
   void styleText();
 
   std::string title_;
@@ -65,7 +71,7 @@ class Surface {
   std::unique_ptr<PictureTexture> texture_;
   int largestTexture_ = 0;
   float textScale_ = 0;
-  bool pretended_ = false;
+  bool pretendedLost_ = false, pretendedEmpty_ = false, input_ = true;
   std::vector<std::string> dropped_;
 };
 
