@@ -71,34 +71,40 @@ bool usesVirtualLights(const RenderOptions& options) {
   return options.lights != "path" && options.lights != "light";
 }
 
-void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& context) {
+RenderedFilm renderFilm(const Frame& frame, FrameRun& run, Context& context) {
   const RenderOptions& options = frame.options;
   const Scene& scene = run.scene;
   const Camera& camera = frame.camera;
   const PixelSet pixels = choosePixels(camera, options);
-  Film film = makeFilm(camera, options);
+  RenderedFilm out{makeFilm(camera, options), {}};
   const int maxDepth = options.maxDepth > 0 ? options.maxDepth : scene.maxDepth;
-  addLightLayers(run.emitters.groups(), options, film);
+  addLightLayers(run.emitters.groups(), options, out.film);
   const std::unique_ptr<Checkpoints> checkpoints =
       openCheckpoint(scene, camera, maxDepth, options, context);
-  if (run.display) run.display->begin(film);
+  if (run.display) run.display->begin(out.film);
 
-  VirtualLightReport report;
-  const int64_t renderStart = nanosecondsNow();
   if (!usesVirtualLights(options)) {
     PathSettings settings = pathSettings(scene, camera, pixels, maxDepth, options);
     settings.checkpoints = checkpoints.get();
     settings.preview = run.display;
     const auto method = options.lights == "path" ? renderPath : renderLight;
     const StageTimer timer(context, "trace");
-    method(run.tracer, run.emitters, camera, settings, film, context);
+    method(run.tracer, run.emitters, camera, settings, out.film, context);
   } else {
-    markPixels(film, pixels);
-    report = renderVirtualLights(run.tracer, run.emitters, camera, pixels, maxDepth, options, film,
-                                 context, checkpoints.get(), run.display,
-                                 options.frames > 1 ? &run.lights : nullptr);
+    markPixels(out.film, pixels);
+    out.report = renderVirtualLights(run.tracer, run.emitters, camera, pixels, maxDepth, options,
+                                     out.film, context, checkpoints.get(), run.display,
+                                     options.frames > 1 ? &run.lights : nullptr);
   }
-  composePicture(film, options);
+  composePicture(out.film, options);
+  return out;
+}
+
+void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& context) {
+  const RenderOptions& options = frame.options;
+  const Scene& scene = run.scene;
+  const int64_t renderStart = nanosecondsNow();
+  auto [film, report] = renderFilm(frame, run, context);
   const int64_t end = nanosecondsNow();
   context.statistics.addSeconds("total", static_cast<double>(end - start) * 1e-9);
 

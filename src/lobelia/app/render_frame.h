@@ -6,6 +6,7 @@
 
 #include "lobelia/app/display.h"
 #include "lobelia/app/frames.h"
+#include "lobelia/app/render_virtual_lights.h"
 #include "lobelia/film/film.h"
 #include "lobelia/lights/light_pass.h"
 #include "lobelia/path/path_tracer.h"
@@ -30,8 +31,14 @@ void setMetadata(Film& film, const Scene& scene, const RenderOptions& options,
 PathSettings pathSettings(const Scene& scene, const Camera& camera, const PixelSet& pixels,
                           int maxDepth, const RenderOptions& options);
 bool usesVirtualLights(const RenderOptions& options);
-// start: when work for this frame began (its statistics' total). When cancelled, what there is gets
-// written.
+struct RenderedFilm {
+  Film film;
+  VirtualLightReport report;
+};
+// The picture, in no file yet. When cancelled, what there is.
+RenderedFilm renderFilm(const Frame& frame, FrameRun& run, Context& context);
+// The same and its files. start: when work for this frame began (its statistics' total). When
+// cancelled, what there is gets written.
 void renderFrame(const Frame& frame, int64_t start, FrameRun& run, Context& context);
 
 }  // namespace lobelia::app

@@ -7,6 +7,9 @@
 //    radiance), or a new one;
 //  - <sensor>: the camera of its id, or a new one that is the first. Without a <film>, the picture
 //    stays as large as it was.
+//
+// What has no name, or one that others have too, is called by its place in the scene, counted from
+// 0: "material[7]", "emitter[0]", "camera[1]". Names go before such.
 #pragma once
 
 #include "lobelia/io/scene_io.h"
@@ -21,5 +24,22 @@ struct DesignParts {
 // unknown name, an area emitter that the scene does not have. Warnings go to Scene::findings.
 DesignParts applyDesign(const std::string& file, const ReadSettings& settings, Scene& scene,
                         Context& context);
+
+// Writes what `now` has otherwise than `before`: materials, emitters, cameras. applyDesign() on
+// `before` makes the same of it, bit for bit. `before`: the scene as read, of which textures and
+// images need not be there; `now`: with all of them, the first of each those of `before`. Images
+// are named where they came from, relative to the file, when they are read as the same from there;
+// others are written into a folder beside it (FILE without suffix, "_textures"). Wrapped materials
+// that changed stand within the named ones around them. Throws RuntimeError; then there is no such
+// file.
+void writeDesign(const std::string& file, const Scene& before, const Scene& now);
+
+// What a design calls them.
+std::string designName(const std::vector<Material>& materials, size_t index);
+std::string designName(const std::vector<Emitter>& emitters, size_t index);
+// Those that a design's id names: all of that name, or the one of that place; empty: none.
+std::vector<size_t> namedInDesign(const std::vector<Material>& materials, const std::string& id);
+std::vector<size_t> namedInDesign(const std::vector<Emitter>& emitters, const std::string& id);
+std::vector<size_t> namedInDesign(const std::vector<Camera>& cameras, const std::string& id);
 
 }  // namespace lobelia::io

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "lobelia/io/mitsuba/design_names.h"
 #include "lobelia/io/mitsuba/reader.h"
 #include "lobelia/io/mitsuba/writer.h"
 
@@ -36,11 +37,6 @@ std::string nearest(const std::string& name, const std::vector<T>& items) {
   return "; there are " + list + (names.size() > kShown ? "..." : "");
 }
 
-// Is this what an id names? Also as the scene is called when it is written as a file.
-bool isCalled(const std::string& name, const std::string& id) {
-  return !name.empty() && !id.empty() && (name == id || cleanName(name) == id);
-}
-
 // Of plugins: is there one such emitter in a scene?
 bool isSurrounding(const std::string& type) {
   return type == "constant" || type == "envmap" || type == "sky" || type == "sunsky";
@@ -56,14 +52,17 @@ std::vector<Emitter> areaEmittersOf(const std::vector<Emitter>& emitters) {
   return of;
 }
 
-// The emitter whose place a changed one takes: environments and suns that of their role, whatever
-// it is called; others that of their name.
+// The emitter whose place a changed one takes: what its id says by place; environments and suns
+// that of their role, whatever it is called; others that of their name.
 std::vector<Emitter>::iterator targetOf(const Emitter& changed, std::vector<Emitter>* emitters) {
   const bool surrounding = isSurrounding(changed.type), sun = changed.type == EmitterType::sun;
+  const std::vector<size_t> named = namedInDesign(*emitters, changed.name);
+  const auto at = [&](size_t i) { return emitters->begin() + static_cast<ptrdiff_t>(i); };
+  if (!named.empty() &&
+      (changed.name == placeName("emitter", named.front()) || !(surrounding || sun)))
+    return at(named.front());
   return std::find_if(emitters->begin(), emitters->end(), [&](const Emitter& e) {
-    if (surrounding) return isSurrounding(e.type);
-    if (sun) return e.type == EmitterType::sun;
-    return isCalled(e.name, changed.name);
+    return surrounding ? isSurrounding(e.type) : sun && e.type == EmitterType::sun;
   });
 }
 
@@ -83,6 +82,12 @@ DesignParts Reader::change() {
   const Element* surrounding = nullptr;
   for (const Element* e : emitters) {
     if (isSurrounding(open(*e).type())) {
+      const std::string id = e->valueOr("id", "");
+      const auto named = namedInDesign(scene_.emitters, id);
+      if (!named.empty() && id == placeName("emitter", named.front())) {
+        changeEmitter(*e);
+        continue;
+      }
       if (surrounding != nullptr)
         throw InputError(e->where, "this is a second environment; a design can have one");
       surrounding = e;
@@ -101,14 +106,12 @@ void Reader::changeMaterials(const std::vector<const Element*>& elements) {
     if (name.empty())
       throw InputError(e->where, "the <bsdf> has no id; it names the material that it replaces");
     const MaterialHandle changed = material(*e);
-    bool found = false;
-    for (size_t i = 0; i < before.size(); ++i) {
-      if (!isCalled(before[i].name, name)) continue;
-      found = true;
+    const std::vector<size_t> named = namedInDesign(before, name);
+    for (const size_t i : named) {
       scene_.materials[i] = scene_[changed];
       scene_.materials[i].name = before[i].name;
     }
-    if (!found)
+    if (named.empty())
       throw InputError(
           e->where, fmt::format("the scene has no material '{}'{}", name, nearest(name, before)));
   }
@@ -138,6 +141,8 @@ void Reader::changeEmitter(const Element& element) {
     if (target == before.end()) {
       before.push_back(std::move(changed));
     } else {
+      if (changed.name == placeName("emitter", static_cast<size_t>(target - before.begin())))
+        changed.name = target->name;
       *target = std::move(changed);
     }
   }
@@ -148,12 +153,15 @@ void Reader::changeSensor(const Element& element) {
   std::vector<Camera> before = std::move(scene_.cameras);
   scene_.cameras.clear();
   const std::string name = element.valueOr("id", "");
-  auto target = std::find_if(before.begin(), before.end(),
-                             [&](const Camera& c) { return isCalled(c.name, name); });
+  const std::vector<size_t> named = namedInDesign(before, name);
+  auto target =
+      named.empty() ? before.end() : before.begin() + static_cast<ptrdiff_t>(named.front());
+  const std::string known = named.empty() ? name : target->name;
   if (!before.empty()) film_ = target != before.end() ? *target : before.front();
   sensor(element);
   if (target == before.end()) target = before.insert(before.begin(), Camera{});
   *target = std::move(scene_.cameras.front());
+  target->name = known;
   scene_.cameras = std::move(before);
 }
 

@@ -172,36 +172,36 @@ void Writer::writeIntegrator() {
 }
 
 void Writer::writeCameras() {
-  for (const Camera& camera : scene_.cameras) {
-    const bool perspective = camera.type == CameraType::perspective,
-               lens = camera.apertureRadius > 0;
-    Node node = object(root_, "sensor",
-                       !perspective ? "orthographic"
-                       : lens       ? "thinlens"
-                                    : "perspective",
-                       ids_.make(camera.name, "camera"));
-    if (perspective) {
-      property(node, "float", "fov", text(exactDegrees(camera.fovX)));
-      property(node, "string", "fov_axis", "x");
-      property(node, "float", "principal_point_offset_x", text(camera.principalPointOffset.x));
-      property(node, "float", "principal_point_offset_y", text(camera.principalPointOffset.y));
-    }
-    property(node, "float", "near_clip", text(camera.nearClip));
-    property(node, "float", "far_clip", text(camera.farClip));
-    if (camera.focusDistance > 0)
-      property(node, "float", "focus_distance", text(camera.focusDistance));
-    if (perspective && lens)
-      property(node, "float", "aperture_radius", text(camera.apertureRadius));
-    if (camera.path.empty()) {
-      transform(node, "to_world", camera.toWorld.to);
-    } else {
-      animation(node, "to_world", camera.path);
-    }
-    if (camera.spp > 0)
-      property(object(node, "sampler", "independent"), "integer", "sample_count",
-               std::to_string(camera.spp));
-    writeFilm(node, camera);
+  for (const Camera& camera : scene_.cameras) writeCamera(camera, ids_.make(camera.name, "camera"));
+}
+
+void Writer::writeCamera(const Camera& camera, const std::string& id) {
+  const bool perspective = camera.type == CameraType::perspective, lens = camera.apertureRadius > 0;
+  Node node = object(root_, "sensor",
+                     !perspective ? "orthographic"
+                     : lens       ? "thinlens"
+                                  : "perspective",
+                     id);
+  if (perspective) {
+    property(node, "float", "fov", text(exactDegrees(camera.fovX)));
+    property(node, "string", "fov_axis", "x");
+    property(node, "float", "principal_point_offset_x", text(camera.principalPointOffset.x));
+    property(node, "float", "principal_point_offset_y", text(camera.principalPointOffset.y));
   }
+  property(node, "float", "near_clip", text(camera.nearClip));
+  property(node, "float", "far_clip", text(camera.farClip));
+  if (camera.focusDistance > 0)
+    property(node, "float", "focus_distance", text(camera.focusDistance));
+  if (perspective && lens) property(node, "float", "aperture_radius", text(camera.apertureRadius));
+  if (camera.path.empty()) {
+    transform(node, "to_world", camera.toWorld.to);
+  } else {
+    animation(node, "to_world", camera.path);
+  }
+  if (camera.spp > 0)
+    property(object(node, "sampler", "independent"), "integer", "sample_count",
+             std::to_string(camera.spp));
+  writeFilm(node, camera);
 }
 
 void Writer::writeFilm(Node sensor, const Camera& camera) {
@@ -277,10 +277,12 @@ void Writer::writeInstances() {
 void Writer::writeEmitters() {
   for (const Emitter& emitter : scene_.emitters) {
     if (emitter.type == EmitterType::area) continue;  // written with its shapes
-    emitterProperties(
-        object(root_, "emitter", pluginName(emitter.type), ids_.make(emitter.name, "emitter")),
-        emitter);
+    writeEmitter(emitter, ids_.make(emitter.name, "emitter"));
   }
+}
+
+void Writer::writeEmitter(const Emitter& emitter, const std::string& id) {
+  emitterProperties(object(root_, "emitter", pluginName(emitter.type), id), emitter);
 }
 
 void Writer::emitterProperties(Node node, const Emitter& e) {
@@ -315,12 +317,12 @@ void Writer::emitterProperties(Node node, const Emitter& e) {
       color(node, "radiance", e.radiance);
       break;
     case EmitterType::environment:
-      property(node, "string", "filename", imageFiles_[e.image.index]);
+      property(node, "string", "filename", imageFile(e.image));
       property(node, "float", "scale", text(e.scale));
       transform(node, "to_world", e.toWorld.to);
       break;
     case EmitterType::goniometric:
-      property(node, "string", "filename", imageFiles_[e.image.index]);
+      property(node, "string", "filename", imageFile(e.image));
       color(node, "intensity", e.radiance);
       property(node, "float", "scale", text(e.scale));
       transform(node, "to_world", e.toWorld.to);

@@ -115,25 +115,33 @@ void Writer::writeImages() {
   for (const Emitter& e : scene_.emitters)
     if (e.type == EmitterType::environment || e.type == EmitterType::goniometric)
       surroundings.insert(e.image.index);
-  Names files;
-  for (size_t i = 0; i < scene_.images.size(); ++i) {
-    const Image& image = scene_.images[i];
-    const std::string stem = std::filesystem::path(image.name).stem().string();
-    const std::string base = "textures/" + files.make(stem, "image");
-    std::error_code ignored;  // a folder that is not there makes the next line fail
-    std::filesystem::create_directories(folder_ + "/textures", ignored);
-    const auto srgb = encode8(image, Transfer::srgb);
-    const auto raw = srgb || surroundings.contains(static_cast<uint32_t>(i))
-                         ? std::nullopt
-                         : encode8(image, Transfer::linear);
-    imageFiles_.push_back(base + (srgb || raw ? ".png" : ".exr"));
-    const std::string file = folder_ + "/" + imageFiles_.back();
-    if (raw) rawImages_.insert(static_cast<uint32_t>(i));
-    if (srgb || raw)
-      writePng(file, srgb ? *srgb : *raw, image.width, image.height, image.channels);
-    else
-      writeImageExr(file, image);
+  for (uint32_t i = 0; i < scene_.images.size(); ++i) {
+    const std::string stem = std::filesystem::path(scene_.images[i].name).stem().string();
+    imageFiles_.push_back(
+        writeImage({i}, "textures/" + imageNames_.make(stem, "image"), !surroundings.contains(i)));
   }
+}
+
+std::string Writer::writeImage(ImageHandle handle, const std::string& base, bool mayBeRaw) {
+  const Image& image = scene_[handle];
+  std::error_code ignored;  // a folder that is not there makes the next lines fail
+  const std::filesystem::path path = folder_ + "/" + base;
+  std::filesystem::create_directories(path.parent_path(), ignored);
+  const auto srgb = encode8(image, Transfer::srgb);
+  const auto raw = srgb || !mayBeRaw ? std::nullopt : encode8(image, Transfer::linear);
+  const std::string name = base + (srgb || raw ? ".png" : ".exr");
+  if (raw) rawImages_.insert(handle.index);
+  if (srgb || raw)
+    writePng(folder_ + "/" + name, srgb ? *srgb : *raw, image.width, image.height, image.channels);
+  else
+    writeImageExr(folder_ + "/" + name, image);
+  return name;
+}
+
+const std::string& Writer::imageFile(ImageHandle image) {
+  std::string& file = imageFiles_[image.index];
+  if (file.empty()) file = designImage(image);
+  return file;
 }
 
 std::optional<Rgb> Writer::constantOf(TextureHandle handle) const {
@@ -195,7 +203,7 @@ pugi::xml_node Writer::textureNode(Node parent, const Texture& t, const std::str
   switch (t.type) {
     case TextureType::bitmap: {
       Node node = object(parent, "texture", "bitmap", id);
-      property(node, "string", "filename", imageFiles_[t.image.index]);
+      property(node, "string", "filename", imageFile(t.image));
       property(node, "string", "filter_type", t.filter == Filter::nearest ? "nearest" : "bilinear");
       property(node, "string", t.wrapU == t.wrapV ? "wrap_mode" : "wrap_mode_u",
                kWraps[static_cast<size_t>(t.wrapU)]);
@@ -259,9 +267,17 @@ void Writer::writeMaterials() {
   for (const Material& material : scene_.materials)
     materialIds_.push_back(ids_.make(material.name, "material"));
   for (size_t i = 0; i < scene_.materials.size(); ++i) {
-    const Material& material = scene_.materials[i];
-    materialProperties(object(root_, "bsdf", pluginName(material.type), materialIds_[i]), material);
+    writeMaterial(root_, scene_.materials[i], materialIds_[i]);
   }
+}
+
+void Writer::writeMaterial(Node parent, const Material& material, const std::string& id) {
+  materialProperties(object(parent, "bsdf", pluginName(material.type), id), material);
+}
+
+void Writer::nested(Node node, MaterialHandle material) {
+  if (isDesign_) return writeMaterial(node, scene_[material], {});
+  reference(node, materialIds_[material.index]);
 }
 
 void Writer::roughness(Node node, const Material& m) {
@@ -278,9 +294,9 @@ void Writer::materialProperties(Node node, const Material& m) {
     property(node, "float", "int_ior", text(m.ior));
     property(node, "float", "ext_ior", "1");
   };
-  const auto nested = [&] {
-    reference(node, materialIds_[m.a.index]);
-    if (m.b.valid()) reference(node, materialIds_[m.b.index]);
+  const auto wrapped = [&] {
+    nested(node, m.a);
+    if (m.b.valid()) nested(node, m.b);
   };
   switch (m.type) {
     case MaterialType::diffuse:
@@ -341,24 +357,24 @@ void Writer::materialProperties(Node node, const Material& m) {
       sphericalGaussians(node, m);
       break;
     case MaterialType::twoSided:
-      nested();
+      wrapped();
       break;
     case MaterialType::mask:
       scalar(node, "opacity", m.opacity);
-      nested();
+      wrapped();
       break;
     case MaterialType::blend:
       scalar(node, "weight", m.weight);
-      nested();
+      wrapped();
       break;
     case MaterialType::bump:
       property(node, "float", "scale", text(m.scale));
       reference(node, textureId(m.map, false), "map");
-      nested();
+      wrapped();
       break;
     case MaterialType::normalMap:
       reference(node, textureId(m.map, false), "normalmap");
-      nested();
+      wrapped();
       break;
     case MaterialType::null:
       break;

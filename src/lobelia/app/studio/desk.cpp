@@ -1,0 +1,128 @@
+#include "lobelia/app/studio/desk.h"
+
+#include <utility>
+
+namespace lobelia::app {
+namespace {
+
+constexpr int64_t kPatience = 2'000'000'000;  // nanoseconds that a first picture may take
+constexpr size_t kMostMessages = 256;
+
+}  // namespace
+
+void Desk::want(Wanted wanted) {
+  {
+    const std::scoped_lock lock(mutex_);
+    const bool other = newest_.design != wanted.design || !samePicture(newest_.view, wanted.view) ||
+                       !sameTruth(newest_.view, wanted.view);
+    newest_ = wanted;
+    wanted_ = std::move(wanted);
+    const bool patient = runningFirst_ && nanosecondsNow() - since_ < kPatience;
+    if (other && running_ && !runningJob_ && !patient) running_->cancel();
+  }
+  wake_.notify_one();
+}
+
+void Desk::give(Job job) {
+  {
+    const std::scoped_lock lock(mutex_);
+    jobs_.push_back(std::move(job));
+    if (running_ && !runningJob_) running_->cancel();
+  }
+  wake_.notify_one();
+}
+
+void Desk::stop() {
+  {
+    const std::scoped_lock lock(mutex_);
+    stop_ = true;
+    if (running_) running_->cancel();
+  }
+  wake_.notify_one();
+}
+
+std::shared_ptr<const Picture> Desk::picture() const {
+  const std::scoped_lock lock(mutex_);
+  return picture_;
+}
+std::shared_ptr<const Picture> Desk::truth() const {
+  const std::scoped_lock lock(mutex_);
+  return truth_;
+}
+
+std::vector<StudioMessage> Desk::takeMessages() {
+  const std::scoped_lock lock(mutex_);
+  std::vector<StudioMessage> out(std::make_move_iterator(messages_.begin()),
+                                 std::make_move_iterator(messages_.end()));
+  messages_.clear();
+  return out;
+}
+
+std::vector<Arrival> Desk::takeArrivals() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(arrivals_, {});
+}
+
+size_t Desk::openJobs() const {
+  const std::scoped_lock lock(mutex_);
+  return jobs_.size() + (jobRuns_ ? 1 : 0) + arrivals_.size();
+}
+
+Desk::Task Desk::next(bool canGoOn, Job* job, Wanted* wanted) {
+  std::unique_lock lock(mutex_);
+  wake_.wait(lock, [&] { return stop_ || canGoOn || wanted_ || !jobs_.empty(); });
+  if (stop_) return Task::stop;
+  if (!jobs_.empty()) {
+    *job = std::move(jobs_.front());
+    jobs_.pop_front();
+    jobRuns_ = true;
+    return Task::job;
+  }
+  if (!wanted_) return Task::go;
+  *wanted = std::move(*wanted_);
+  wanted_.reset();
+  return Task::wanted;
+}
+
+bool Desk::begin(Context& context, bool first) {
+  const std::scoped_lock lock(mutex_);
+  if (stop_ || wanted_ || !jobs_.empty()) return false;
+  running_ = &context, runningFirst_ = first, runningJob_ = false;
+  since_ = nanosecondsNow();
+  return true;
+}
+
+void Desk::beginJob(Context& context) {
+  const std::scoped_lock lock(mutex_);
+  if (stop_) context.cancel();
+  running_ = &context, runningJob_ = true;
+}
+
+void Desk::end() {
+  const std::scoped_lock lock(mutex_);
+  running_ = nullptr;
+}
+
+void Desk::endJob() {
+  const std::scoped_lock lock(mutex_);
+  running_ = nullptr, jobRuns_ = false;
+}
+
+void Desk::publish(std::shared_ptr<const Picture> picture, bool truth) {
+  const std::scoped_lock lock(mutex_);
+  (truth ? truth_ : picture_) = std::move(picture);
+}
+
+void Desk::arrive(Arrival arrival) {
+  const std::scoped_lock lock(mutex_);
+  arrivals_.push_back(std::move(arrival));
+}
+
+void Desk::message(Severity severity, std::string_view text) {
+  if (severity == Severity::debug) return;
+  const std::scoped_lock lock(mutex_);
+  if (messages_.size() == kMostMessages) messages_.pop_front();
+  messages_.push_back({severity, std::string(text)});
+}
+
+}  // namespace lobelia::app

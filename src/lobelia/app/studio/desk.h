@@ -1,0 +1,90 @@
+// What the window's thread and the worker share: a few values behind one mutex.
+//
+// The window puts what is wanted and jobs here and takes pictures and messages away; the worker
+// does the opposite. Nothing is done while the mutex is held but moving these.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lobelia/app/studio/design.h"
+#include "lobelia/app/studio/picture.h"
+#include "lobelia/app/studio/view_state.h"
+#include "lobelia/base/context.h"
+
+namespace lobelia::app {
+
+class Stage;
+
+struct StudioMessage {
+  Severity severity = Severity::info;
+  std::string text;
+};
+struct Wanted {
+  std::shared_ptr<const Design> design;
+  ViewState view;
+};
+// Something to be done between two pictures: files read and written. What it throws becomes a
+// message.
+using Job = std::function<void(Stage& stage, Context& context)>;
+// A change that a job has prepared, to be made by the window's thread.
+struct Arrival {
+  std::string name;                    // of the edit
+  std::shared_ptr<const Design> base;  // the only design that it goes with; null: with any
+  std::function<void(Design&)> change;
+  std::function<void()> again;  // when the design is another by now
+};
+
+class Desk : public Listener {
+ public:
+  // The window's side.
+  void want(Wanted wanted);
+  void give(Job job);
+  void stop();
+  std::shared_ptr<const Picture> picture() const;
+  std::shared_ptr<const Picture> truth() const;
+  std::vector<StudioMessage> takeMessages();
+  std::vector<Arrival> takeArrivals();
+  size_t openJobs() const;  // given and not done
+
+  // The worker's side.
+  enum class Task : uint8_t { stop, job, wanted, go };
+  // What is next: a job, something new that is wanted, or, when neither is there, to go on; where
+  // there is nothing to go on with, it waits.
+  Task next(bool canGoOn, Job* job, Wanted* wanted);
+  // While something is rendered, want() cancels its context: at once, or, of a first picture, after
+  // some time only, so that who drags without end sees pictures. False: do not even begin, for
+  // there is something else to be done.
+  bool begin(Context& context, bool first);
+  void beginJob(Context& context);  // only stop() cancels it
+  void end();
+  void endJob();
+  void publish(std::shared_ptr<const Picture> picture, bool truth);
+  void arrive(Arrival arrival);
+  // Of contexts that report here. Infos and warnings; the oldest of many go.
+  void message(Severity severity, std::string_view text) override;
+  void progress(std::string_view, double) override {}
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  // Under the mutex:
+  std::optional<Wanted> wanted_;  // that the worker has not taken
+  Wanted newest_;
+  std::deque<Job> jobs_;
+  bool jobRuns_ = false, stop_ = false;
+  Context* running_ = nullptr;
+  bool runningFirst_ = false, runningJob_ = false;
+  int64_t since_ = 0;
+  std::shared_ptr<const Picture> picture_, truth_;
+  std::deque<StudioMessage> messages_;
+  std::vector<Arrival> arrivals_;
+};
+
+}  // namespace lobelia::app

@@ -1,0 +1,59 @@
+// Makes the pictures of a view, step by step: a frame by cuts, or a first look at a quarter of the
+// size and then pass after pass, averaged; and the path-traced truth beside it. For one thread;
+// synchronous: the window's worker and headless frames call it.
+//
+// A design that cuts cannot show is said to be so, once, and they go on with the last one that they
+// could.
+//
+// Seeds of passes are functions of the seed and the number of the pass: the same steps give the
+// same bits.
+#pragma once
+
+#include <memory>
+
+#include "lobelia/app/studio/pass_mean.h"
+#include "lobelia/app/studio/picture.h"
+#include "lobelia/app/studio/stage.h"
+
+namespace lobelia::app {
+
+class PictureMaker {
+ public:
+  static constexpr int kMostTruth = 1 << 16;  // samples per pixel after which the truth stands
+
+  PictureMaker(Stage& stage, uint64_t seed) : stage_(stage), seed_(seed) {}
+
+  // What is wanted from now on; drops what no longer belongs to it.
+  void want(std::shared_ptr<const Design> design, const ViewState& view);
+
+  // Which step would be next.
+  enum class Step : uint8_t { none, frame, look, pass, truth };
+  Step next() const;
+  // Does it: the picture after it, or of step truth the truth. Throws InputError (cuts refused, and
+  // none were accepted before), RuntimeError, Cancelled; after a failure the picture is left as it
+  // is until something else is wanted.
+  std::shared_ptr<const Picture> run(Step step, Context& context);
+  // Leaves a step out that failed.
+  void giveUp(Step step);
+
+ private:
+  std::shared_ptr<Picture> frame(Context& context);
+  std::shared_ptr<Picture> look(Context& context);
+  std::shared_ptr<Picture> pass(ViewMethod method, PassMean& mean, Context& context);
+  void show(bool cuts, Context& context);
+  void showCuts(Context& context);
+  bool isDone() const;
+
+  Stage& stage_;
+  const uint64_t seed_;
+  std::shared_ptr<const Design> design_;
+  std::shared_ptr<const Design> accepted_;  // by cuts, last
+  std::string refusal_;                     // of design_, said already
+  ViewState view_;
+  PassMean mean_, truth_;
+  bool started_ = false;  // frame or look is done
+  bool givenUp_ = false, truthGivenUp_ = false;
+  double pictureSeconds_ = 0, truthSeconds_ = 0;
+};
+
+}  // namespace lobelia::app

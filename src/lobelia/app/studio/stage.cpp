@@ -1,0 +1,186 @@
+#include "lobelia/app/studio/stage.h"
+
+#include <algorithm>
+
+#include "lobelia/app/frame_setup.h"
+#include "lobelia/app/render_frame.h"
+#include "lobelia/io/design.h"
+
+namespace lobelia::app {
+namespace {
+
+bool forCuts(Stage::Use use) { return use == Stage::Use::cuts || use == Stage::Use::whiteCuts; }
+bool isWhite(Stage::Use use) {
+  return use == Stage::Use::whiteCuts || use == Stage::Use::whitePaths;
+}
+
+// Every surface white and diffuse on the sides on which it scattered; masks stay.
+void whiten(std::vector<Material>& materials) {
+  for (Material& m : materials) {
+    switch (m.type) {
+      case MaterialType::twoSided:
+      case MaterialType::mask:
+      case MaterialType::blend:
+      case MaterialType::null:
+        break;
+      case MaterialType::bump:  // the place's normal counts, not the map's
+      case MaterialType::normalMap:
+        m.map = {};
+        break;
+      default:
+        m = Material{};
+        m.diffuse = Rgb(1.f);
+    }
+  }
+}
+
+std::optional<relight::VisibilityData> loadData(const std::string& file, const Scene& scene,
+                                                Context& context) {
+  if (file.empty()) return {};
+  const StageTimer timer(context, "data");
+  return relight::load(file, scene);
+}
+
+}  // namespace
+
+Stage::Stage(Scene scene, const std::string& data, Context& context)
+    : scene_(std::move(scene)),
+      hideEmitters_(scene_.hideEmitters),
+      sceneImages_(scene_.images.size()),
+      geometry_(relight::geometryHash(scene_)),
+      data_(loadData(data, scene_, context)),
+      tracedGeometry_(geometry_),
+      masked_(hasMasks()),
+      tracer_(std::make_unique<Tracer>(scene_, context)) {
+  prepareLight(context);
+}
+
+Stage::~Stage() { exchangeImages({}); }
+
+bool Stage::hasMasks() const {
+  return std::any_of(scene_.instances.begin(), scene_.instances.end(),
+                     [&](const Instance& i) { return hasOpacity(scene_, i.material); });
+}
+
+void Stage::exchangeImages(const std::vector<std::shared_ptr<StoredImage>>& wanted) {
+  for (size_t i = 0; i < taken_.size(); ++i)
+    taken_[i]->pixels = std::move(scene_.images[sceneImages_ + i]);
+  scene_.images.resize(sceneImages_);
+  taken_ = wanted;
+  for (const auto& image : taken_) scene_.images.push_back(std::move(image->pixels));
+}
+
+bool Stage::fill(const Design& design, Use use) {
+  const bool sameImages = taken_ == design.images;
+  if (!sameImages) exchangeImages(design.images);
+  scene_.materials = design.materials;
+  scene_.textures = design.textures;
+  scene_.cameras = design.cameras;
+  scene_.hideEmitters = hideEmitters_ || isWhite(use);
+  if (isWhite(use)) whiten(scene_.materials);
+  std::vector<Emitter> emitters =
+      forCuts(use) ? design.emitters : turnedEmitters(design, design.rotation);
+  const bool same = sameImages && sameLight(emitters, scene_.emitters);
+  if (!same) scene_.emitters = std::move(emitters);
+  return same;
+}
+
+void Stage::requireCuts(uint64_t geometry, const Location& where) const {
+  if (!data_)
+    throw InputError(where,
+                     "there is no data of visibility; name it with --data, or choose "
+                     "another method");
+  relight::requireKnownSides(*data_, scene_, where);
+  if (geometry != geometry_)
+    throw InputError(where,
+                     "this changes which parts of surfaces are masked out, which the visibility "
+                     "has to know; make a scene with it and precompute that");
+}
+
+void Stage::show(std::shared_ptr<const Design> design, Use use, const Location& where,
+                 Context& context) {
+  if (shown_ == design && use_ == use) return;
+  const bool sameEmitters = fill(*design, use);
+  try {
+    // Without masks, now and in what rays meet, nothing of it can have changed.
+    const bool masks = hasMasks();
+    const uint64_t geometry = masks || masked_ ? relight::geometryHash(scene_) : tracedGeometry_;
+    if (forCuts(use)) requireCuts(geometry, where);
+    const bool sameRays = geometry == tracedGeometry_;
+    if (!sameRays) prepareRays(geometry, masks);
+    if (!sameRays || !sameEmitters) prepareLight(context);
+  } catch (...) {
+    if (shown_ && !fill(*shown_, use_)) prepareLight(context);
+    throw;
+  }
+  shown_ = std::move(design);
+  use_ = use;
+}
+
+// Whoever cancels a picture does not want its rays half made: they have a context of their own.
+void Stage::prepareRays(uint64_t geometry, bool masks) {
+  Context own;
+  auto tracer = std::make_unique<Tracer>(scene_, own);
+  cuts_.reset(), emitters_.reset();
+  tracer_ = std::move(tracer);
+  tracedGeometry_ = geometry, masked_ = masks;
+}
+
+void Stage::prepareLight(Context& context) {
+  const StageTimer timer(context, "prepare");
+  auto emitters = std::make_unique<EmitterSampler>(scene_, tracer_->bounds());
+  if (cuts_) {
+    cuts_->relight(*emitters);
+  } else if (data_) {
+    cuts_ = std::make_unique<relight::FrameRenderer>(*tracer_, *emitters, *data_);
+  }
+  emitters_ = std::move(emitters);
+}
+
+void Stage::requireValid(const Location& where) const {
+  for (const Finding& finding : validate(scene_))
+    if (finding.severity == Severity::error) throw InputError(where, finding.message);
+}
+
+void Stage::save(const std::string& file, const Design& first, const Camera& camera) {
+  Scene before = sceneOf(first);
+  before.instances = scene_.instances;
+  const std::vector<Camera> cameras = scene_.cameras;
+  const auto named = std::find_if(cameras.begin(), cameras.end(),
+                                  [&](const Camera& c) { return c.name == camera.name; });
+  const size_t at = named != cameras.end() ? static_cast<size_t>(named - cameras.begin()) : 0;
+  if (at < cameras.size()) {
+    const Camera& old = cameras[at];
+    Camera& now = scene_.cameras[at];
+    now = camera;
+    now.name = old.name, now.width = old.width, now.height = old.height;
+    now.cropX0 = old.cropX0, now.cropX1 = old.cropX1;
+    now.cropY0 = old.cropY0, now.cropY1 = old.cropY1;
+    if (now.toWorld.to == old.toWorld.to) now.path = old.path;
+  }
+  try {
+    io::writeDesign(file, before, scene_);
+  } catch (...) {
+    scene_.cameras = cameras;
+    throw;
+  }
+  scene_.cameras = cameras;
+}
+
+void Stage::renderCuts(const Camera& camera, double rotation, size_t lightCut,
+                       const relight::FrameSettings& settings, Film& film, Context& context) {
+  relight::FrameSettings own = settings;
+  own.hideEmitters = scene_.hideEmitters;
+  const relight::FrameLight light = cuts_->light(rotation, {.nodeCount = lightCut}, context);
+  cuts_->render(light, camera, own, film, context);
+}
+
+Film Stage::renderPass(const Camera& camera, const RenderOptions& options, Context& context) {
+  static const std::string kNoCommand;
+  FrameRun run{scene_, *tracer_, *emitters_, kNoCommand, nullptr, {}, {}};
+  RenderedFilm rendered = renderFilm({0, camera, options}, run, context);
+  if (context.cancelled()) throw Cancelled{};
+  return std::move(rendered.film);
+}
+
+}  // namespace lobelia::app

@@ -1,0 +1,210 @@
+#include "lobelia/app/studio/studio.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <filesystem>
+
+#include "lobelia/app/load_scene.h"
+#include "lobelia/app/studio/design_files.h"
+#include "lobelia/app/studio/material_edits.h"
+#include "lobelia/app/studio/material_fields.h"
+#include "lobelia/app/studio/picture_maker.h"
+#include "lobelia/app/studio/screenshot.h"
+
+namespace lobelia::app {
+namespace {
+
+std::string fileName(const std::string& file) {
+  return std::filesystem::path(file).filename().string();
+}
+
+}  // namespace
+
+Studio::Studio(const StudioSettings& settings, Context& context)
+    : stage_(std::make_unique<Stage>(loadScene(settings.scene, context), settings.data, context)),
+      seed_(settings.seed),
+      strict_(settings.scene.strict),
+      hasCuts_(stage_->data() != nullptr),
+      name_(stage_->scene().name),
+      bounds_(stage_->tracer().bounds()),
+      history_(designOf(stage_->scene())),
+      first_(history_.share()) {
+  view_.camera = history_.now().cameras.front();
+  if (!hasCuts_) view_.method = ViewMethod::path;
+  if (context.cancelled()) throw Cancelled{};
+  thread_ = std::thread([this] { work(); });
+}
+
+Studio::~Studio() {
+  desk_.stop();
+  thread_.join();
+}
+
+void Studio::send() { desk_.want({history_.share(), view_}); }
+
+void Studio::edit(const std::string& name, const std::function<void(Design&)>& change) {
+  history_.edit(name, change);
+  send();
+}
+void Studio::undo() {
+  if (history_.undo()) send();
+}
+void Studio::redo() {
+  if (history_.redo()) send();
+}
+void Studio::setView(const ViewState& view) {
+  view_ = view;
+  send();
+}
+
+void Studio::loadEnvironment(const std::string& file) {
+  desk_.give([this, file](Stage&, Context&) {
+    const auto image = readImageFile(file, false);
+    desk_.arrive({"environment " + fileName(file),
+                  nullptr,
+                  [image](Design& d) { setEnvironment(d, image); },
+                  {}});
+  });
+}
+
+void Studio::loadTexture(const std::string& file, uint32_t material, const std::string& word) {
+  const FieldPlace place = findField(design(), material, word, {});
+  desk_.give([this, file, place](Stage&, Context&) {
+    const auto image = readImageFile(file, place.field->kind != FieldKind::color);
+    desk_.arrive({fmt::format("{} by {}", place.field->label, fileName(file)),
+                  nullptr,
+                  [image, place](Design& d) {
+                    const TextureHandle texture = addBitmap(d, image);
+                    setFieldTexture(d.materials.at(place.material), *place.field, texture);
+                  },
+                  {}});
+  });
+}
+
+void Studio::loadBump(const std::string& file, uint32_t material, float scale) {
+  desk_.give([this, file, material, scale](Stage&, Context&) {
+    const auto image = readImageFile(file, true);
+    desk_.arrive({"bump map " + fileName(file),
+                  nullptr,
+                  [=](Design& d) { setBump(d, material, addBitmap(d, image), scale); },
+                  {}});
+  });
+}
+
+void Studio::loadNormalMap(const std::string& file, uint32_t material) {
+  desk_.give([this, file, material](Stage&, Context&) {
+    const auto image = readImageFile(file, true);
+    desk_.arrive({"normal map " + fileName(file),
+                  nullptr,
+                  [=](Design& d) { setNormalMap(d, material, addBitmap(d, image)); },
+                  {}});
+  });
+}
+
+void Studio::loadDesign(const std::string& file) {
+  const std::shared_ptr<const Design> base = history_.share();
+  desk_.give([this, file, base](Stage& stage, Context& context) {
+    ReadDesign read = readDesign(*base, file, strict_, context);
+    stage.show(read.design, Stage::Use::paths, {file, 0, 0}, context);
+    stage.requireValid({file, 0, 0});
+    desk_.arrive({"design " + fileName(file), base,
+                  [this, read](Design& d) {
+                    d = *read.design;
+                    if (read.parts.emitters) d.rotation = 0;
+                    if (read.parts.cameras) view_.camera = d.cameras.front();
+                  },
+                  [this, file] { loadDesign(file); }});
+  });
+}
+
+void Studio::saveDesign(const std::string& file) {
+  desk_.give(
+      [this, file, now = history_.share(), camera = view_.camera](Stage& stage, Context& context) {
+        stage.show(now, Stage::Use::paths, {}, context);
+        stage.save(file, *first_, camera);
+        context.info("wrote " + file);
+      });
+}
+
+void Studio::screenshot(const std::string& file, const DisplaySettings& display) {
+  const std::shared_ptr<const Picture> picture = newestPicture(), truth = newestTruth();
+  desk_.give([file, display, picture, truth](Stage&, Context& context) {
+    if (!picture) throw UsageError("there is no picture yet");
+    writeScreenshot(file, *picture, truth.get(), display);
+    context.info("wrote " + file);
+  });
+}
+
+bool Studio::update() {
+  bool changed = false;
+  for (Arrival& arrival : desk_.takeArrivals()) {
+    if (arrival.base && arrival.base != history_.share()) {
+      arrival.again();
+      continue;
+    }
+    try {
+      history_.endEdit();
+      history_.edit(arrival.name, arrival.change);
+      history_.endEdit();
+      changed = true;
+    } catch (const std::exception& e) {
+      desk_.message(Severity::error, e.what());
+    }
+  }
+  if (changed) send();
+  return changed;
+}
+
+void Studio::work() {
+  PictureMaker maker(*stage_, seed_);
+  Job job;
+  Wanted wanted;
+  for (;;) {
+    switch (desk_.next(maker.next() != PictureMaker::Step::none, &job, &wanted)) {
+      case Desk::Task::stop:
+        return;
+      case Desk::Task::job:
+        workJob(std::exchange(job, {}));
+        break;
+      case Desk::Task::wanted:
+        maker.want(std::move(wanted.design), wanted.view);
+        break;
+      case Desk::Task::go:
+        workOn(maker);
+        break;
+    }
+  }
+}
+
+void Studio::workOn(PictureMaker& maker) {
+  using Step = PictureMaker::Step;
+  const Step step = maker.next();
+  Context context(&desk_);
+  if (!desk_.begin(context, step == Step::frame || step == Step::look)) return;
+  try {
+    const std::shared_ptr<const Picture> picture = maker.run(step, context);
+    desk_.end();
+    desk_.publish(picture, step == Step::truth);
+    return;
+  } catch (const Cancelled&) {  // something else is wanted
+  } catch (const std::exception& e) {
+    desk_.message(Severity::error, e.what());
+    maker.giveUp(step);
+  }
+  desk_.end();
+}
+
+void Studio::workJob(const Job& job) {
+  Context context(&desk_);
+  desk_.beginJob(context);
+  try {
+    job(*stage_, context);
+  } catch (const Cancelled&) {
+  } catch (const std::exception& e) {
+    desk_.message(Severity::error, e.what());
+  }
+  desk_.endJob();
+}
+
+}  // namespace lobelia::app

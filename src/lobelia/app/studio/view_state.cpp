@@ -1,0 +1,89 @@
+#include "lobelia/app/studio/view_state.h"
+
+#include <algorithm>
+
+namespace lobelia::app {
+namespace {
+
+bool sameTransform(const Transform& a, const Transform& b) { return a.to == b.to; }
+
+// Of what a ray through the film depends on.
+bool sameCamera(const Camera& a, const Camera& b) {
+  return a.type == b.type && sameTransform(a.toWorld, b.toWorld) && a.fovX == b.fovX &&
+         a.principalPointOffset == b.principalPointOffset && a.nearClip == b.nearClip &&
+         a.farClip == b.farClip && a.apertureRadius == b.apertureRadius &&
+         a.focusDistance == b.focusDistance && a.filter == b.filter &&
+         a.filterRadius == b.filterRadius;
+}
+
+}  // namespace
+
+const std::vector<std::string>& viewMethodNames() {
+  static const std::vector<std::string> names{"cuts", "path", "sglc", "vsl", "vsgl"};
+  return names;
+}
+
+std::optional<ViewMethod> viewMethod(const std::string& name) {
+  const auto& names = viewMethodNames();
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end()) return {};
+  return static_cast<ViewMethod>(at - names.begin());
+}
+
+Camera viewCamera(const ViewState& view) {
+  Camera camera = view.camera;
+  camera.width = view.width, camera.height = view.height;
+  camera.cropX0 = camera.cropY0 = 0;
+  camera.cropX1 = view.width, camera.cropY1 = view.height;
+  camera.path.clear();
+  return camera;
+}
+
+int depthOf(const ViewState& view) {
+  constexpr int kDirect = 2;
+  return view.method == ViewMethod::cuts || view.white ? kDirect : view.maxDepth;
+}
+
+RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp) {
+  RenderOptions options;
+  options.spp = spp;
+  options.maxDepth = depthOf(view);
+  options.lightCount = view.lightCount;
+  if (view.cost) options.aovs = "cost";
+  // As few as a pass of some tenths of a second allows; passes have lights of their own.
+  const auto quick = [&](uint64_t count) {
+    if (view.lightCount == 0) options.lightCount = count;
+  };
+  switch (method) {
+    case ViewMethod::cuts:
+    case ViewMethod::path:
+      options.lights = "path";
+      break;
+    case ViewMethod::sglc:
+      options.lights = "glossy", options.gather = "sglc";
+      quick(50'000);
+      break;
+    case ViewMethod::vsl:
+      options.lights = "vsl", options.gather = "mrcs";
+      quick(20'000);
+      break;
+    case ViewMethod::vsgl:
+      options.lights = "vsgl", options.gather = "all";
+      break;
+  }
+  return options;
+}
+
+bool samePicture(const ViewState& a, const ViewState& b) {
+  return sameCamera(a.camera, b.camera) && a.width == b.width && a.height == b.height &&
+         a.method == b.method && a.lightCut == b.lightCut && a.refined == b.refined &&
+         a.lightCount == b.lightCount && a.maxDepth == b.maxDepth && a.cost == b.cost &&
+         a.white == b.white;
+}
+
+bool sameTruth(const ViewState& a, const ViewState& b) {
+  return sameCamera(a.camera, b.camera) && a.width == b.width && a.height == b.height &&
+         depthOf(a) == depthOf(b) && a.white == b.white;
+}
+
+}  // namespace lobelia::app

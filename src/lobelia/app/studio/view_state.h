@@ -1,0 +1,47 @@
+// How a design is looked at: the camera, the method, the size. No part of the design and of no
+// history; any of it may change at any time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lobelia/app/render_options.h"
+#include "lobelia/scene/camera.h"
+
+namespace lobelia::app {
+
+// cuts: relight/frame.h, direct light from infinity in one go; the others are those of `render`,
+// pass by pass.
+enum class ViewMethod : uint8_t { cuts, path, sglc, vsl, vsgl };
+const std::vector<std::string>& viewMethodNames();  // in that order
+std::optional<ViewMethod> viewMethod(const std::string& name);
+
+struct ViewState {
+  Camera camera;              // its film's size is left alone: the two below say the picture's
+  int width = 0, height = 0;  // pixels; 0: nothing is drawn
+  ViewMethod method = ViewMethod::cuts;
+  size_t lightCut = 512;    // cuts: nodes of the light's cut, at most
+  bool refined = true;      // cuts: finer light where lobes are narrow
+  int spp = 256;            // progressive: samples per pixel after which a picture is done; cuts: 1
+  uint64_t lightCount = 0;  // sglc, vsl, vsgl: virtual lights of a pass; 0: a quick number
+  int maxDepth = 0;         // progressive; 0: the scene's
+  bool truth = false;       // the path-traced truth converges in the background
+  bool cost = false;        // pictures have the layer "cost"
+  // Surfaces are white, so that the picture times pi is the irradiance (false_color.h).
+  bool white = false;
+};
+
+// The film that the camera has in this view.
+Camera viewCamera(const ViewState& view);
+// Of the light that the method shows, as `render --max-depth` counts.
+int depthOf(const ViewState& view);
+
+// What `render` would be told for a pass of so many samples per pixel. method: not cuts.
+RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp);
+
+// Do two views show other pictures? Of the truth, of the method's own.
+bool samePicture(const ViewState& a, const ViewState& b);
+bool sameTruth(const ViewState& a, const ViewState& b);
+
+}  // namespace lobelia::app
