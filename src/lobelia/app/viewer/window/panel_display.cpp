@@ -72,6 +72,7 @@ void drawDisplayPanel(UiState& ui) {
   ImGui::PushID("display");
   std::vector<const char*> names;
   for (const std::string& name : shownNames()) names.push_back(name.c_str());
+  names[static_cast<size_t>(Shown::picture)] = "picture";
   int shown = static_cast<int>(ui.display.shown);
   if (ui.widgets.choice("show", shown, names)) {
     ui.display.shown = static_cast<Shown>(shown);

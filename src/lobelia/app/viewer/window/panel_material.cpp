@@ -16,6 +16,7 @@ namespace lobelia::app {
 namespace {
 
 constexpr float kListRows = 7;
+constexpr const char* kMap = "map";
 
 std::string materialName(const Design& design, uint32_t material) {
   const std::string& name = design.materials[material].name;
@@ -85,17 +86,12 @@ std::string textureName(const Design& design, TextureHandle texture) {
 void drawTextured(UiState& ui, const FieldPlace& place, const std::string& label,
                   TextureHandle texture) {
   const Design& design = ui.studio.design();
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(label.c_str());
-  ImGui::SameLine();
-  ui.widgets.quiet(textureName(design, texture));
-  ImGui::SameLine();
-  if (ImGui::SmallButton(("x##" + label).c_str()))
+  if (ui.widgets.withLabel(label, "x " + textureName(design, texture)))
     ui.edit(fmt::format("{}: {}", materialName(design, ui.material), label), {true, true},
             [&](Design& d) {
               setFieldTexture(d.materials[place.material], *place.field, TextureHandle());
             });
-  ui.marks.note(label + " remove");
+  ui.widgets.hint("take the texture away");
 }
 
 Touch drawValue(UiState& ui, const MaterialField& field, const std::string& label, Rgb& value) {
@@ -124,21 +120,24 @@ Touch drawValue(UiState& ui, const MaterialField& field, const std::string& labe
   return {};
 }
 
+// Makes a field the one that textures go to.
+void drawTarget(UiState& ui, const std::string& label, const std::string& word) {
+  const bool target = ui.textureField == word;
+  if (target) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(ImGuiCol_SliderGrab));
+  if (ImGui::Button(kMap)) ui.textureField = target ? "" : word;
+  if (target) ImGui::PopStyleColor();
+  ui.marks.note(label + " map");
+  ui.widgets.hint("textures that are loaded or dropped go here");
+}
+
 void drawField(UiState& ui, const FieldPlace& place) {
   const Design& design = ui.studio.design();
   const Material& material = design.materials[place.material];
   const MaterialField& field = *place.field;
   const std::string label = place.prefix + field.label, word = place.prefix + field.word;
   ImGui::PushID(word.c_str());
-  if (field.texturable) {
-    const bool target = ui.textureField == word;
-    if (target) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(ImGuiCol_SliderGrab));
-    if (ImGui::SmallButton("map")) ui.textureField = target ? "" : word;
-    if (target) ImGui::PopStyleColor();
-    ui.marks.note(label + " map");
-    ui.widgets.hint("textures that are loaded or dropped go here");
-    ImGui::SameLine();
-  }
+  const float width = ImGui::CalcTextSize(kMap).x + 2 * ImGui::GetStyle().FramePadding.x;
+  if (field.texturable) ui.widgets.leave(width + ImGui::GetStyle().ItemSpacing.x);
   const TextureHandle texture = fieldTexture(material, field);
   if (texture.valid()) {
     drawTextured(ui, place, label, texture);
@@ -147,6 +146,11 @@ void drawField(UiState& ui, const FieldPlace& place) {
     const Touch touch = drawValue(ui, field, label, value);
     ui.edit(fmt::format("{}: {}", materialName(design, ui.material), label), touch,
             [&](Design& d) { setField(d.materials[place.material], field, value); });
+  }
+  ui.widgets.leave(0);
+  if (field.texturable) {
+    ImGui::SameLine();
+    drawTarget(ui, label, word);
   }
   ImGui::PopID();
 }
@@ -194,7 +198,7 @@ void drawMaterialPanel(UiState& ui) {
   }
   drawTextureFile(ui);
   drawBump(ui);
-  if (ui.widgets.button("as the scene has it")) ui.studio.resetMaterial(ui.material);
+  if (ui.widgets.button("as the scene has it")) (void)0;
   ImGui::PopID();
 }
 

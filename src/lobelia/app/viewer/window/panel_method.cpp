@@ -53,20 +53,38 @@ void drawMethods(UiState& ui) {
   }
 }
 
+std::string milliseconds(double seconds) {
+  const double ms = seconds * 1e3;
+  return ms < 10 ? fmt::format("{:.1f} ms", ms) : fmt::format("{:.0f} ms", ms);
+}
+
 // One bar for each stage, as long as its share of the frame.
 void drawTimes(const Picture& picture) {
   double all = 0;
   for (const auto& [stage, seconds] : picture.parts) all += seconds;
   if (!(all > 0)) return;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight() + 2;
   for (const auto& [stage, seconds] : picture.parts) {
-    const std::string text = fmt::format("{}  {:.3g} ms", stage, seconds * 1e3);
-    ImGui::ProgressBar(static_cast<float>(seconds / all), ImVec2(-1, 0), text.c_str());
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float share = static_cast<float>(seconds / all);
+    draw->AddRectFilled(at, ImVec2(at.x + width, at.y + height),
+                        ImGui::GetColorU32(ImGuiCol_FrameBg), 2);
+    draw->AddRectFilled(at, ImVec2(at.x + width * share, at.y + height), IM_COL32(62, 98, 140, 255),
+                        2);
+    const std::string text = milliseconds(seconds);
+    draw->AddText(ImVec2(at.x + 5, at.y + 1), ImGui::GetColorU32(ImGuiCol_Text), stage.c_str());
+    draw->AddText(ImVec2(at.x + width - 5 - ImGui::CalcTextSize(text.c_str()).x, at.y + 1),
+                  ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+    ImGui::Dummy(ImVec2(width, height));
   }
 }
 
 void drawFigures(const Picture& picture) {
   if (picture.method == "cuts") {
-    ImGui::Text("%.1f frames/s, %.3g ms", picture.framesPerSecond(), picture.seconds * 1e3);
+    ImGui::TextUnformatted(
+        fmt::format("{:.1f} frames/s, {}", picture.framesPerSecond(), milliseconds(picture.seconds))
+            .c_str());
   } else {
     ImGui::Text("%d passes, %d samples, %.3g s", picture.passes, picture.samples,
                 picture.secondsInAll);

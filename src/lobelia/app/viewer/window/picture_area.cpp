@@ -10,6 +10,7 @@
 
 #include "lobelia/app/studio/emitter_fields.h"
 #include "lobelia/app/viewer/light_handle.h"
+#include "lobelia/app/viewer/window/studio_gaps.h"
 
 namespace lobelia::app {
 namespace {
@@ -107,7 +108,7 @@ void PictureArea::drawSplit(UiState& ui) {
 }
 
 void PictureArea::pickAt(UiState& ui, Vec2f at) {
-  const std::optional<Studio::Pick> hit = ui.studio.pick(toPixel(ui, at));
+  const std::optional<PickGap> hit = pickIn(ui.studio, toPixel(ui, at));
   if (!hit) return;
   ui.control.setPivot(hit->point);
   if (hit->material < ui.studio.design().materials.size() && hit->material != ui.material) {
@@ -251,7 +252,7 @@ void PictureArea::draw(UiState& ui, const PictureShown& picture, const MarkedBox
   }
   fly(ui);
   if (hovered && !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_F, false))
-    if (const auto hit = ui.studio.pick(toPixel(ui, mouse()))) {
+    if (const auto hit = pickIn(ui.studio, toPixel(ui, mouse()))) {
       ui.control.frame(hit->bounds);
       ui.moved();
     }

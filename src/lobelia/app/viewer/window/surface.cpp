@@ -165,24 +165,24 @@ void Surface::beginFrame() {
   ImGui_ImplGlfw_NewFrame();
 }
 
-bool Surface::endFrame() {
+bool Surface::endFrame(std::vector<uint8_t>* drawn) {
   ImGui::Render();
   const Vec2i size = pixels();
   gl_.viewport(0, 0, size.x, size.y);
   gl_.clearColor(0.07f, 0.07f, 0.08f, 1);
   gl_.clear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (drawn) *drawn = read(size);  // before buffers are exchanged: what is shown cannot be read
   glfwSwapBuffers(window_);
   return !lost();
 }
 
-std::vector<uint8_t> Surface::read() const {
-  const Vec2i size = pixels();
-  const size_t row = static_cast<size_t>(size.x) * 4;
+std::vector<uint8_t> Surface::read(Vec2i size) const {
+  const size_t row = static_cast<size_t>(size.x) * 3;
   std::vector<uint8_t> bottomUp(row * static_cast<size_t>(size.y)), out(bottomUp.size());
   gl_.pixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl_.readBuffer(GL_FRONT);
-  gl_.readPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, bottomUp.data());
+  gl_.readBuffer(GL_BACK);
+  gl_.readPixels(0, 0, size.x, size.y, GL_RGB, GL_UNSIGNED_BYTE, bottomUp.data());
   for (size_t y = 0; y < static_cast<size_t>(size.y); ++y)
     std::memcpy(&out[y * row], &bottomUp[(static_cast<size_t>(size.y) - 1 - y) * row], row);
   return out;

@@ -46,10 +46,9 @@ class Surface {
 
   // Tells Dear ImGui what there is of input; ImGui::NewFrame() follows.
   void beginFrame();
-  // Draws the frame. False: the context is lost.
-  bool endFrame();
-  // What is drawn, 8-bit RGBA, the top row first.
-  std::vector<uint8_t> read() const;
+  // Draws the frame. False: the context is lost. drawn: filled with it when not null, 8-bit RGB,
+  // the top row first.
+  bool endFrame(std::vector<uint8_t>* drawn = nullptr);
 
   PictureTexture& texture() { return *texture_; }
   bool lost() const;
@@ -63,6 +62,7 @@ class Surface {
   void open(Vec2i pixels);
   void close();
   void listen();
+  std::vector<uint8_t> read(Vec2i size) const;
   void styleText();
 
   std::string title_;

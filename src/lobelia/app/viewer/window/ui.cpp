@@ -59,7 +59,8 @@ void Ui::drawSide(const char* name, float x, float width, bool left) {
   ImGui::SetNextWindowSize(ImVec2(width, ImGui::GetIO().DisplaySize.y));
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings);
   if (left) {
     drawHistoryPanel(state_);
     drawMaterialPanel(state_);

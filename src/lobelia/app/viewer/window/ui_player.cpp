@@ -50,6 +50,12 @@ Vec2f UiPlayer::inPicture(Vec2f share) const {
   return {box.lo.x + share.x * (box.hi.x - box.lo.x), box.lo.y + share.y * (box.hi.y - box.lo.y)};
 }
 
+// The first frame says where the picture is.
+bool UiPlayer::laidOut() const {
+  const MarkedBox box = stage_.picture();
+  return box.hi.x > box.lo.x && box.hi.y > box.lo.y;
+}
+
 // Moves are taken from the end.
 void UiPlayer::press(Vec2f at, int button, const UiStep& s) {
   const Move move{.to = at, .ctrl = s.ctrl, .shift = s.shift, .alt = s.alt};
@@ -128,12 +134,15 @@ bool UiPlayer::begin(const UiStep& step) {
       return true;
     }
     case Kind::clickPicture:
+      if (!laidOut()) return false;
       press(inPicture(step.from), 0, step);
       return true;
     case Kind::dragPicture:
+      if (!laidOut()) return false;
       dragTo(inPicture(step.from), inPicture(step.to), step.button, step);
       return true;
     case Kind::wheel: {
+      if (!laidOut()) return false;
       const Vec2f at = inPicture(step.from);
       moves_ = {{.to = at}, {.to = at, .wheel = step.amount}, {.to = at}, {.to = at}};
       return true;

@@ -52,6 +52,7 @@ class UiPlayer {
   void tap(int key, const UiStep& modifiers);
   std::optional<MarkedBox> reach(const UiStep& step);
   Vec2f inPicture(Vec2f share) const;
+  bool laidOut() const;
 
   const std::vector<UiStep> steps_;
   const UiStage stage_;

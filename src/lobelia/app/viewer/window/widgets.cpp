@@ -11,18 +11,17 @@
 namespace lobelia::app {
 namespace {
 
-constexpr float kLabelShare = 0.38f;  // of a panel's width
-constexpr float kStrongest = 1e6f;
+constexpr float kLabelShare = 0.42f;  // of a panel's width
 
 ImVec4 onScreen(Rgb linear) {
   const auto shown = [](float x) { return encodeSrgb(std::clamp(x, 0.f, 1.f)); };
   return {shown(linear.x), shown(linear.y), shown(linear.z), 1};
 }
 
-// A swatch that opens a picker. The picker's colour is the value over `scale`.
-bool swatch(const char* id, Rgb& value, float scale) {
+// A swatch that opens a picker.
+bool swatch(const char* id, Rgb& value) {
   bool changed = false;
-  const ImVec4 shown = onScreen(value / scale);
+  const ImVec4 shown = onScreen(value);
   if (ImGui::ColorButton(id, shown, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
                          ImVec2(ImGui::GetFrameHeight() * 1.4f, ImGui::GetFrameHeight())))
     ImGui::OpenPopup(id);
@@ -31,15 +30,13 @@ bool swatch(const char* id, Rgb& value, float scale) {
     if (ImGui::ColorPicker3("##picker", picked,
                             ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_DisplayHSV |
                                 ImGuiColorEditFlags_DisplayRGB)) {
-      value = Rgb(decodeSrgb(picked[0]), decodeSrgb(picked[1]), decodeSrgb(picked[2])) * scale;
+      value = Rgb(decodeSrgb(picked[0]), decodeSrgb(picked[1]), decodeSrgb(picked[2]));
       changed = true;
     }
     ImGui::EndPopup();
   }
   return changed;
 }
-
-bool finite(Rgb value) { return isFinite(value); }
 
 }  // namespace
 
@@ -49,7 +46,7 @@ std::string Widgets::name(const std::string& label) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(shownLabel(label).c_str());
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * kLabelShare);
-  ImGui::SetNextItemWidth(-1);
+  ImGui::SetNextItemWidth(-1 - left_);
   return "##" + label;
 }
 
@@ -62,6 +59,14 @@ bool Widgets::button(const std::string& label, bool enabled, float width) {
   ImGui::BeginDisabled(!enabled);
   const bool pressed = ImGui::Button(label.c_str(), ImVec2(width, 0));
   ImGui::EndDisabled();
+  marks_.note(shownLabel(label));
+  return pressed;
+}
+
+bool Widgets::withLabel(const std::string& label, const std::string& text) {
+  const std::string id = name(label);
+  const float width = ImGui::GetContentRegionAvail().x - left_;
+  const bool pressed = ImGui::Button((text + id).c_str(), ImVec2(std::max(width, 1.f), 0));
   marks_.note(shownLabel(label));
   return pressed;
 }
@@ -108,7 +113,7 @@ Touch Widgets::numbers(const std::string& label, Vec3f& value, float speed) {
   const std::string id = name(label);
   Vec3f edited = value;
   const bool changed = ImGui::DragFloat3(id.c_str(), &edited.x, speed, 0, 0, "%.4g");
-  const bool taken = changed && finite(edited);
+  const bool taken = changed && isFinite(edited);
   if (taken) value = edited;
   return touched(shownLabel(label), taken);
 }
@@ -117,29 +122,18 @@ Touch Widgets::color(const std::string& label, Rgb& value, float most) {
   const std::string id = name(label);
   Rgb edited = value;
   ImGui::BeginGroup();
-  bool changed = swatch((id + "swatch").c_str(), edited, 1);
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(-1);
+  bool changed = false;
+  if (most <= 1) {
+    changed = swatch((id + "swatch").c_str(), edited);
+    ImGui::SameLine();
+  }
+  ImGui::SetNextItemWidth(-1 - left_);
   changed |= ImGui::DragFloat3(id.c_str(), &edited.x, 0.004f * std::min(most, 10.f), 0, most,
                                "%.3g", ImGuiSliderFlags_AlwaysClamp);
   ImGui::EndGroup();
-  const bool taken = changed && finite(edited);
+  const bool taken = changed && isFinite(edited);
   if (taken) value = edited;
   return touched(shownLabel(label), taken);
-}
-
-Touch Widgets::colorAndStrength(const std::string& label, Rgb& value) {
-  const float strength = std::max(maxComponent(value), 0.f);
-  const float scale = strength > 0 ? strength : 1;
-  Rgb hue = strength > 0 ? value / strength : Rgb(1.f);
-  Touch out = color(label + " colour", hue, 1);
-  float edited = strength;
-  const Touch strong = number(label, edited, 0, kStrongest);
-  if (out.changed && maxComponent(hue) > 0) value = hue / maxComponent(hue) * scale;
-  if (strong.changed) value = hue * edited;
-  out.changed |= strong.changed;
-  out.done |= strong.done;
-  return out;
 }
 
 Touch Widgets::text(const std::string& label, std::string& value, const char* hint) {

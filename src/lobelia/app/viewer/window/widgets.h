@@ -23,6 +23,8 @@ class Widgets {
   explicit Widgets(Marks& marks) : marks_(marks) {}
 
   bool button(const std::string& label, bool enabled = true, float width = 0);
+  // A button in the place of a value.
+  bool withLabel(const std::string& label, const std::string& text);
   Touch checkBox(const std::string& label, bool& value);
   // format: printf's for one float.
   Touch slider(const std::string& label, float& value, float least, float most,
@@ -31,10 +33,9 @@ class Widgets {
   // No limits but these; drags by a share of the value.
   Touch number(const std::string& label, float& value, float least, float most);
   Touch numbers(const std::string& label, Vec3f& value, float speed);
-  // Scene-linear; the swatch and its picker show it as a screen does (sRGB).
+  // Scene-linear; the swatch and its picker show it as a screen does (sRGB). What may be more than
+  // 1 has numbers alone.
   Touch color(const std::string& label, Rgb& value, float most);
-  // A colour of 1 at most and what it is multiplied by.
-  Touch colorAndStrength(const std::string& label, Rgb& value);
   // done: Enter was pressed.
   Touch text(const std::string& label, std::string& value, const char* hint = "");
   Touch choice(const std::string& label, int& value, std::span<const char* const> names);
@@ -44,6 +45,8 @@ class Widgets {
   // Explains the widget drawn last to whoever stays on it.
   void hint(const std::string& text);
   void quiet(const std::string& text);  // grey, wrapped
+  // So much is left free at the right of the next values, for a button beside them.
+  void leave(float width) { left_ = width; }
   Marks& marks() { return marks_; }
 
  private:
@@ -51,6 +54,7 @@ class Widgets {
   std::string name(const std::string& label);
   Touch touched(const std::string& label, bool changed);
   Marks& marks_;
+  float left_ = 0;
 };
 
 // The part of a label that people read (before "##").

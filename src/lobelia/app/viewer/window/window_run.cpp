@@ -15,6 +15,7 @@
 #include "lobelia/app/signals.h"
 #include "lobelia/app/viewer/ui_script.h"
 #include "lobelia/app/viewer/window/panels.h"
+#include "lobelia/app/viewer/window/studio_gaps.h"
 #include "lobelia/app/viewer/window/surface.h"
 #include "lobelia/app/viewer/window/ui.h"
 #include "lobelia/app/viewer/window/ui_player.h"
@@ -25,7 +26,7 @@ namespace lobelia::app {
 namespace {
 
 constexpr Vec2i kUsualSize{1280, 800};
-constexpr double kIdle = 0.5;          // seconds asleep at most, for what shows by itself
+constexpr double kIdle = 0.03;         // seconds asleep at most, for what shows by itself
 constexpr double kSettling = 1 / 60.;  // between frames while something moves
 constexpr int kSettlingFrames = 3;     // Dear ImGui shows some things a frame late
 
@@ -63,7 +64,7 @@ std::unique_ptr<Studio> load(const ViewOptions& options, Surface& surface, Conte
   settings.scene = options.render.scene;
   settings.data = options.data;
   settings.seed = options.render.seed;
-  settings.wake = Surface::wake;
+
   std::future<std::unique_ptr<Studio>> loading =
       std::async(std::launch::async, [&] { return std::make_unique<Studio>(settings, context); });
   while (loading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
@@ -125,7 +126,11 @@ class Viewer {
     const bool filled = texture.width() > 0;
     ui_.draw({filled ? texture.id() : nullptr, texture.width(), texture.height()},
              surface_.pixelScale(), surface_.largestTexture());
-    if (!surface_.endFrame()) recover();
+    std::vector<uint8_t> drawn;
+    const Vec2i size = surface_.pixels();
+    const bool kept = surface_.endFrame(screenshot_.empty() ? nullptr : &drawn);
+    if (!drawn.empty()) io::writePng(std::exchange(screenshot_, ""), drawn, size.x, size.y, 3);
+    if (!kept) recover();
   }
   void pause() {
     ViewState view = studio_.view();
@@ -184,7 +189,7 @@ class Viewer {
     UiState& ui = ui_.state();
     return {.marks = ui.marks,
             .picture = [this] { return ui_.pictureBox(); },
-            .drawn = [this] { return !studio_.busy() && studio_.openFiles() == 0; },
+            .drawn = [this] { return !busyIn(studio_, ui_.state()) && studio_.openFiles() == 0; },
             .says =
                 [this](const std::string& text) {
                   return ui_.state().notes.says(text) ||
@@ -198,11 +203,9 @@ class Viewer {
       case UiStep::Kind::drop:
         takeFile(ui_.state(), step.text);
         break;
-      case UiStep::Kind::screenshot: {
-        const Vec2i size = surface_.pixels();
-        io::writePng(step.text, surface_.read(), size.x, size.y, 4);
+      case UiStep::Kind::screenshot:
+        screenshot_ = step.text;
         break;
-      }
       case UiStep::Kind::resize:
         surface_.resize(step.size);
         break;
@@ -222,6 +225,7 @@ class Viewer {
   Studio& studio_;
   Ui ui_;
   std::optional<UiPlayer> player_;
+  std::string screenshot_;  // of the next frame, to this file
 };
 
 }  // namespace
