@@ -47,8 +47,9 @@ void addColors(ImGuiStyle& style) {
   c[ImGuiCol_FrameBgHovered] = grey(0.27f);
   c[ImGuiCol_FrameBgActive] = grey(0.31f);
   c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = grey(0.17f);
-  c[ImGuiCol_CheckMark] = c[ImGuiCol_SliderGrabActive] = strong;
-  c[ImGuiCol_SliderGrab] = accent;
+  c[ImGuiCol_CheckMark] = strong;
+  c[ImGuiCol_SliderGrabActive] = ImVec4(0.30f, 0.48f, 0.68f, 1);
+  c[ImGuiCol_SliderGrab] = ImVec4(0.24f, 0.38f, 0.55f, 1);
   c[ImGuiCol_Button] = grey(0.25f);
   c[ImGuiCol_ButtonHovered] = grey(0.32f);
   c[ImGuiCol_ButtonActive] = grey(0.38f);
