@@ -3,22 +3,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 
-#include "lobelia/app/edited_scene.h"
 #include "lobelia/app/frame_setup.h"
-#include "lobelia/app/load_scene.h"
 #include "lobelia/app/option_checks.h"
-#include "lobelia/app/render_frame.h"
 #include "lobelia/app/signals.h"
-#include "lobelia/app/view_script.h"
-#include "lobelia/app/view_statistics.h"
+#include "lobelia/app/view_frames.h"
 #include "lobelia/app/viewer/window_run.h"
 #include "lobelia/base/parallel.h"
-#include "lobelia/relight/frame.h"
 
 namespace lobelia::app {
 namespace {
@@ -29,10 +22,10 @@ void requireView(const ViewOptions& options) {
     throw UsageError(
         "--ui-script plays at the window, which --headless has not; --script is for "
         "frames without one");
-  if (options.data.empty())
+  if (options.data.empty() && options.script.empty())
     throw UsageError(
-        "--headless draws from precomputed visibility: give --data FILE, made by "
-        "`lobelia precompute SCENE --method cuts -o FILE`");
+        "--data is required: what `lobelia precompute` made of the scene; only scripts that choose "
+        "another method than cuts go without");
   if (!options.script.empty() &&
       (options.rotateStep != 0 || render.frames > 0 || render.turntable || !render.frame.empty()))
     throw UsageError(
@@ -47,167 +40,6 @@ void requireView(const ViewOptions& options) {
   requirePicture(options.render);
   requireFrames(options.render);
 }
-
-bool lightsFromNearby(EmitterType type) {
-  return type == EmitterType::point || type == EmitterType::spot || type == EmitterType::area ||
-         type == EmitterType::projector || type == EmitterType::goniometric;
-}
-
-void warnOfMissing(const Scene& scene, Context& context) {
-  const auto near = std::count_if(scene.emitters.begin(), scene.emitters.end(),
-                                  [](const Emitter& e) { return lightsFromNearby(e.type); });
-  const auto clear =
-      std::count_if(scene.instances.begin(), scene.instances.end(),
-                    [&](const Instance& i) { return relight::transmits(scene, i.material); });
-  if (near == std::ssize(scene.emitters))
-    context.warning("the scene has no light from infinity; add some with --environment or --sky");
-  else if (near > 0)
-    context.warning(
-        fmt::format("{} of {} emitters are not at infinity: they are seen but light nothing", near,
-                    scene.emitters.size()));
-  if (clear > 0)
-    context.warning(
-        fmt::format("{} surfaces transmit light, of which only reflections are shown", clear));
-}
-
-relight::VisibilityData loadData(const std::string& file, const Scene& scene, Context& context) {
-  const StageTimer timer(context, "data");
-  return relight::load(file, scene);
-}
-
-// What the frames share.
-class Frames {
- public:
-  Frames(const ViewOptions& options, const std::string& commandLine, Context& context)
-      : options_(options),
-        commandLine_(commandLine),
-        context_(context),
-        script_(options.script.empty() ? std::vector<ScriptStep>() : readScript(options.script)),
-        edited_(loadScene(options.render.scene, context), options.render.scene.strict),
-        scene_(edited_.scene()),
-        geometry_(relight::geometryHash(scene_)),
-        plan_(planFrames(scene_, options.render, true)),
-        data_(loadData(options.data, scene_, context)),
-        tracer_(scene_, context),
-        rotation_(options.rotate) {
-    warnOfMissing(scene_, context_);
-    prepare();
-  }
-
-  void render() {
-    if (script_.empty()) {
-      for (const Frame& frame : plan_) {
-        rotation_ = std::fmod(
-            std::fmod(options_.rotate, 360) + std::fmod(options_.rotateStep, 360) * frame.number,
-            360);
-        renderFrame(frame);
-      }
-    } else {
-      play();
-    }
-    context_.info(fmt::format("{:.2f} frames per second", framesPerSecond(context_.statistics)));
-    if (context_.statistics.count("nonfinite") > 0)
-      context_.warning(fmt::format("{} values are not finite; they are left out",
-                                   context_.statistics.count("nonfinite")));
-  }
-  void writeStatistics() const {
-    if (!options_.render.stats.empty()) writeViewStatistics(options_, scene_, data_, context_);
-  }
-
- private:
-  // For the emitters that there are now.
-  void prepare() {
-    const StageTimer timer(context_, "prepare");
-    auto emitters = std::make_unique<EmitterSampler>(scene_, tracer_.bounds());
-    if (renderer_) {
-      renderer_->relight(*emitters);
-    } else {
-      renderer_.emplace(tracer_, *emitters, data_);
-    }
-    emitters_ = std::move(emitters);
-  }
-
-  void play() {
-    int number = 0;
-    for (const ScriptStep& step : script_) {
-      switch (step.kind) {
-        case ScriptStep::Kind::rotate:
-          rotation_ = std::fmod(step.degrees, 360);
-          break;
-        case ScriptStep::Kind::turn:
-          rotation_ = std::fmod(rotation_ + std::fmod(step.degrees, 360), 360);
-          break;
-        case ScriptStep::Kind::camera:
-          view_ = step.toWorld;
-          break;
-        case ScriptStep::Kind::design:
-        case ScriptStep::Kind::environment:
-          change(step);
-          break;
-        case ScriptStep::Kind::frame:
-          for (int i = 0; i < step.count; ++i) renderFrame(scriptFrame(number++));
-          break;
-      }
-    }
-  }
-  Frame scriptFrame(int number) const {
-    Frame frame{number, chooseCamera(scene_, options_.render), options_.render};
-    if (view_) frame.camera.toWorld = *view_;
-    frame.camera.path.clear();
-    for (std::string& file : frame.options.outputs)
-      if (frameCount(script_) > 1 || file.find('%') != std::string::npos)
-        file = frameFile(file, number);
-    return frame;
-  }
-  void change(const ScriptStep& step) {
-    const io::DesignParts parts = edited_.change(step, context_);
-    if (parts.cameras) view_.reset();
-    if (parts.materials) {
-      relight::requireKnownSides(data_, scene_, step.where);
-      if (relight::geometryHash(scene_) != geometry_)
-        throw InputError(step.where,
-                         "this changes which parts of surfaces are masked out, which "
-                         "the visibility has to know; make a scene with it and "
-                         "precompute that");
-    }
-    prepare();  // emitters' images may have moved, whatever the edit is of
-  }
-
-  void renderFrame(const Frame& frame) {
-    const int64_t start = nanosecondsNow();
-    Film film = makeFilm(frame.camera, frame.options);
-    film.layers.erase("direct");
-    film.layers.erase("indirect");
-    const relight::FrameLight light =
-        renderer_->light(rotation_, {.nodeCount = options_.lightCut}, context_);
-    renderer_->render(light, frame.camera,
-                      {.spp = std::max(options_.render.spp, 1),
-                       .refined = !options_.plainLobes,
-                       .hideEmitters = scene_.hideEmitters},
-                      film, context_);
-    const double seconds = static_cast<double>(nanosecondsNow() - start) * 1e-9;
-    setMetadata(film, scene_, frame.options, commandLine_, seconds);
-    if (options_.render.frames > 0 || frameCount(script_) > 1)
-      film.metadata["lobelia:frame"] = std::to_string(frame.number);
-    writeOutputs(film, frame.options, curve_, context_);
-  }
-
-  const ViewOptions& options_;
-  const std::string& commandLine_;
-  Context& context_;
-  const std::vector<ScriptStep> script_;
-  EditedScene edited_;
-  const Scene& scene_;
-  const uint64_t geometry_;
-  const std::vector<Frame> plan_;
-  const relight::VisibilityData data_;
-  const Tracer tracer_;
-  double rotation_;                // degrees
-  std::optional<Transform> view_;  // that a script gave the camera
-  std::unique_ptr<EmitterSampler> emitters_;
-  std::optional<relight::FrameRenderer> renderer_;
-  std::optional<ToneCurve> curve_;  // of all PNG files
-};
 
 }  // namespace
 
@@ -263,7 +95,7 @@ ExitCode view(const ViewOptions& options, const GlobalOptions& global,
   context.seed = options.render.seed;
   const SignalGuard signals(context);
   const int64_t start = nanosecondsNow();
-  std::optional<Frames> frames;
+  std::optional<ViewFrames> frames;
   try {
     frames.emplace(options, commandLine, context);
     frames->render();

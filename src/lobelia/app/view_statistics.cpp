@@ -41,28 +41,29 @@ double framesPerSecond(const Statistics& statistics) {
 }
 
 void writeViewStatistics(const ViewOptions& options, const Scene& scene,
-                         const relight::VisibilityData& data, const Context& context) {
+                         const relight::VisibilityData* data, const Context& context) {
   const Statistics& s = context.statistics;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const double vertices = static_cast<double>(data.cuts.count());
+  const double vertices = data != nullptr ? static_cast<double>(data->cuts.count()) : 0;
+  const double nodes = data != nullptr ? static_cast<double>(data->cuts.nodes().size()) : 0;
   Json json;
   json["version"] = kVersion;
   json["scene"] = {{"triangles", triangleCount(scene)},
                    {"materials", scene.materials.size()},
                    {"emitters", scene.emitters.size()}};
-  json["lights"] = {{"model", "environment"}, {"samples", data.samples.count()}};
+  json["lights"] = {{"model", "environment"},
+                    {"samples", data != nullptr ? data->samples.count() : 0}};
   for (const char* kind : {"omni", "directional", "diffuse", "glossy", "spherical", "vsgl"})
     json["lights"][kind] = 0;
-  json["gather"] = {
-      {"strategy", "cuts"},
-      {"mode", options.plainLobes ? "plain" : "refined"},
-      {"bound", ""},
-      {"threshold", 0},
-      {"error", 0},
-      {"light_cut", options.lightCut},
-      {"vertices", data.cuts.count()},
-      {"visibility_cut", ratio(static_cast<double>(data.cuts.nodes().size()), vertices)}};
+  json["gather"] = {{"strategy", "cuts"},
+                    {"mode", options.plainLobes ? "plain" : "refined"},
+                    {"bound", ""},
+                    {"threshold", 0},
+                    {"error", 0},
+                    {"light_cut", options.lightCut},
+                    {"vertices", static_cast<uint64_t>(vertices)},
+                    {"visibility_cut", ratio(nodes, vertices)}};
   json["receivers"] = {{"diffuse", 0}, {"glossy", 0}};
   for (const char* stage : {"load", "accel", "data", "prepare", "light", "buffer", "merge", "shade",
                             "total", "receivers", "lights", "trees", "traverse", "visibility"})

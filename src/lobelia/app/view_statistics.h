@@ -11,8 +11,8 @@ namespace lobelia::app {
 
 // Frames over the seconds of their making: loading and writing files is left out.
 double framesPerSecond(const Statistics& statistics);
-// Throws RuntimeError when the file cannot be written.
+// data: null where there was none. Throws RuntimeError when the file cannot be written.
 void writeViewStatistics(const ViewOptions& options, const Scene& scene,
-                         const relight::VisibilityData& data, const Context& context);
+                         const relight::VisibilityData* data, const Context& context);
 
 }  // namespace lobelia::app

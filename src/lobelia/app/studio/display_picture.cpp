@@ -168,6 +168,16 @@ Displayed displayPicture(const Picture& picture, const Picture* truth,
   return out;
 }
 
+std::string whyNotShown(const Picture& picture, const Picture* truth, Shown shown) {
+  if (shown == Shown::illuminance && !picture.white)
+    return "the picture is not of white surfaces, which illuminance is measured on";
+  if (shown == Shown::cost && !picture.film.layers.contains("cost"))
+    return "the picture has not counted its cost";
+  if (shown == Shown::error && truth == nullptr && !picture.film.layers.contains("error"))
+    return "there is neither a truth nor a second pass to know the error from";
+  return "";
+}
+
 std::vector<uint8_t> legendColors(int count) {
   std::vector<uint8_t> pixels;
   for (int i = 0; i < count; ++i) {

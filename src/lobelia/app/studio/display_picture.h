@@ -43,6 +43,9 @@ struct Displayed {
 Displayed displayPicture(const Picture& picture, const Picture* truth,
                          const DisplaySettings& settings);
 
+// Why a picture cannot be shown so (it lacks what is asked for), or "".
+std::string whyNotShown(const Picture& picture, const Picture* truth, Shown shown);
+
 // Colours of a legend from the least (first) to the most: `count` times RGBA.
 std::vector<uint8_t> legendColors(int count);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -143,7 +144,8 @@ void setEmitterValue(Emitter& e, EmitterField field, Vec3f value) {
       if (hasScale(e)) {
         e.scale = value.x;
       } else {
-        e.radiance = emitterValue(e, F::color) * value.x;
+        // Of no light at all the colour would be lost.
+        e.radiance = emitterValue(e, F::color) * std::max(value.x, 1e-20f);
       }
       break;
     case F::position: {
@@ -172,6 +174,15 @@ void setEmitterValue(Emitter& e, EmitterField field, Vec3f value) {
     case F::angularRadius:
       e.angularRadius = value.x * kDegree;
       break;
+  }
+}
+
+std::string freeLightName(const Design& design) {
+  for (int number = 1;; ++number) {
+    std::string name = fmt::format("light{}", number);
+    if (std::none_of(design.emitters.begin(), design.emitters.end(),
+                     [&](const Emitter& e) { return e.name == name; }))
+      return name;
   }
 }
 

@@ -43,6 +43,8 @@ void setEmitterValue(Emitter& emitter, EmitterField field, Vec3f value);
 
 // New lights: of types point, spot (down), directional (down), constant. The intensity of a point
 // of strength 1 is 1 W/sr.
+// freeLightName(): light1, light2... that nothing has.
+std::string freeLightName(const Design& design);
 Emitter newEmitter(EmitterType type, const std::string& name, Vec3f position, Rgb light);
 
 }  // namespace lobelia::app

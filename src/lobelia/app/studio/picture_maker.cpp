@@ -35,11 +35,7 @@ std::vector<std::pair<std::string, double>> partsOf(const Statistics& statistics
 
 void PictureMaker::want(std::shared_ptr<const Design> design, const ViewState& view) {
   const bool sameDesign = design == design_;
-  if (!sameDesign || !samePicture(view, view_)) {
-    mean_.clear();
-    started_ = givenUp_ = false;
-    pictureSeconds_ = 0;
-  }
+  if (!sameDesign || !samePicture(view, view_)) restart();
   if (!sameDesign || !sameTruth(view, view_)) {
     truth_.clear();
     truthGivenUp_ = false;
@@ -47,6 +43,12 @@ void PictureMaker::want(std::shared_ptr<const Design> design, const ViewState& v
   }
   design_ = std::move(design);
   view_ = view;
+}
+
+void PictureMaker::restart() {
+  mean_.clear();
+  started_ = givenUp_ = false;
+  pictureSeconds_ = 0;
 }
 
 bool PictureMaker::isDone() const {
@@ -86,7 +88,7 @@ void PictureMaker::showCuts(Context& context) {
   }
 }
 
-std::shared_ptr<const Picture> PictureMaker::run(Step step, Context& context) {
+std::shared_ptr<Picture> PictureMaker::run(Step step, Context& context) {
   const int64_t start = nanosecondsNow();
   std::shared_ptr<Picture> picture;
   context.seed = seed_;
@@ -131,20 +133,20 @@ std::shared_ptr<Picture> PictureMaker::frame(Context& context) {
   picture->film.layers.erase("direct");
   picture->film.layers.erase("indirect");
   if (view_.cost) picture->film.addLayer("cost", 1);
-  stage_.renderCuts(camera, design_->rotation, view_.lightCut, {.refined = view_.refined},
-                    picture->film, context);
+  stage_.renderCuts(camera, design_->rotation, view_.lightCut,
+                    {.spp = view_.cutsSpp, .refined = view_.refined}, picture->film, context);
   picture->method = viewMethodNames()[static_cast<size_t>(ViewMethod::cuts)];
   return picture;
 }
 
 std::shared_ptr<Picture> PictureMaker::look(Context& context) {
-  const bool large = std::min(view_.width, view_.height) >= kLookLeast;
+  const bool large = !view_.cropped && std::min(view_.width, view_.height) >= kLookLeast;
   if (!large) {
     context.seed = hashCombine(seed_, 0);
     return pass(view_.method, mean_, context);
   }
   ViewState small = view_;
-  small.width /= kLookDivisor, small.height /= kLookDivisor;
+  small.width /= kLookDivisor, small.height /= kLookDivisor, small.cropped = false;
   context.seed = hashCombine(seed_, kLookStream);
   auto picture = std::make_shared<Picture>();
   PassMean mean;

@@ -32,7 +32,13 @@ class PictureMaker {
   // Does it: the picture after it, or of step truth the truth. Throws InputError (cuts refused, and
   // none were accepted before), RuntimeError, Cancelled; after a failure the picture is left as it
   // is until something else is wanted.
-  std::shared_ptr<const Picture> run(Step step, Context& context);
+  std::shared_ptr<Picture> run(Step step, Context& context);
+  // Would the truth so far still be that of these?
+  bool truthStands(const std::shared_ptr<const Design>& design, const ViewState& view) const {
+    return design == design_ && sameTruth(view, view_);
+  }
+  // Begins the picture anew (not the truth).
+  void restart();
   // Leaves a step out that failed.
   void giveUp(Step step);
 

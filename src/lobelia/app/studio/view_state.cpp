@@ -33,8 +33,10 @@ std::optional<ViewMethod> viewMethod(const std::string& name) {
 Camera viewCamera(const ViewState& view) {
   Camera camera = view.camera;
   camera.width = view.width, camera.height = view.height;
-  camera.cropX0 = camera.cropY0 = 0;
-  camera.cropX1 = view.width, camera.cropY1 = view.height;
+  if (!view.cropped) {
+    camera.cropX0 = camera.cropY0 = 0;
+    camera.cropX1 = view.width, camera.cropY1 = view.height;
+  }
   camera.path.clear();
   return camera;
 }
@@ -77,8 +79,8 @@ RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp) {
 bool samePicture(const ViewState& a, const ViewState& b) {
   return sameCamera(a.camera, b.camera) && a.width == b.width && a.height == b.height &&
          a.method == b.method && a.lightCut == b.lightCut && a.refined == b.refined &&
-         a.lightCount == b.lightCount && a.maxDepth == b.maxDepth && a.cost == b.cost &&
-         a.white == b.white;
+         a.cutsSpp == b.cutsSpp && a.cropped == b.cropped && a.lightCount == b.lightCount &&
+         a.maxDepth == b.maxDepth && a.cost == b.cost && a.white == b.white;
 }
 
 bool sameTruth(const ViewState& a, const ViewState& b) {

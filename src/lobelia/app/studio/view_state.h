@@ -20,10 +20,12 @@ std::optional<ViewMethod> viewMethod(const std::string& name);
 struct ViewState {
   Camera camera;              // its film's size is left alone: the two below say the picture's
   int width = 0, height = 0;  // pixels; 0: nothing is drawn
+  bool cropped = false;       // the camera's crop counts, which must lie within
   ViewMethod method = ViewMethod::cuts;
   size_t lightCut = 512;    // cuts: nodes of the light's cut, at most
   bool refined = true;      // cuts: finer light where lobes are narrow
-  int spp = 256;            // progressive: samples per pixel after which a picture is done; cuts: 1
+  int cutsSpp = 1;          // cuts: samples per pixel
+  int spp = 256;            // progressive: samples per pixel after which a picture is done
   uint64_t lightCount = 0;  // sglc, vsl, vsgl: virtual lights of a pass; 0: a quick number
   int maxDepth = 0;         // progressive; 0: the scene's
   bool truth = false;       // the path-traced truth converges in the background
