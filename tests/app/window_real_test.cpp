@@ -83,6 +83,15 @@ TEST_F(WindowReal, ScriptsThatFailNameTheirLine) {
   EXPECT_NE(r.err.find("hand.script:2"), std::string::npos) << r.err;
 }
 
+TEST_F(WindowReal, UnknownCamerasAndScenesEndItAsElsewhere) {
+  if (!haveDisplay()) GTEST_SKIP() << "xvfb-run is not installed";
+  const ProgramResult r = runScript("wait\n", "--camera nowhere");
+  EXPECT_EQ(r.exitCode, 2) << r.err;
+  EXPECT_NE(r.err.find("nowhere"), std::string::npos) << r.err;
+  writeText(file("scene.xml"), "<scene version=\"3.0.0\"><shape type=\"nothing\"/></scene>");
+  EXPECT_EQ(runScript("wait\n").exitCode, 3);
+}
+
 TEST_F(WindowReal, AnOpenGlTooOldIsNamed) {
   if (!haveDisplay()) GTEST_SKIP() << "xvfb-run is not installed";
   setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);

@@ -10,7 +10,6 @@
 
 #include "lobelia/app/studio/emitter_fields.h"
 #include "lobelia/app/viewer/light_handle.h"
-#include "lobelia/app/viewer/window/studio_gaps.h"
 
 namespace lobelia::app {
 namespace {
@@ -45,9 +44,9 @@ bool flying() {
 
 }  // namespace
 
-Vec2f PictureArea::toPixel(const UiState& ui, Vec2f at) const {
-  return {(at.x - box_.lo.x) / (box_.hi.x - box_.lo.x) * static_cast<float>(ui.view.width),
-          (at.y - box_.lo.y) / (box_.hi.y - box_.lo.y) * static_cast<float>(ui.view.height)};
+Vec2f PictureArea::toShare(Vec2f at) const {
+  return {(at.x - box_.lo.x) / (box_.hi.x - box_.lo.x),
+          (at.y - box_.lo.y) / (box_.hi.y - box_.lo.y)};
 }
 
 std::optional<Vec2f> PictureArea::toScreen(const UiState& ui, Vec3f point) const {
@@ -107,12 +106,24 @@ void PictureArea::drawSplit(UiState& ui) {
   }
 }
 
-void PictureArea::pickAt(UiState& ui, Vec2f at) {
-  const std::optional<PickGap> hit = pickIn(ui.studio, toPixel(ui, at));
-  if (!hit) return;
-  ui.control.setPivot(hit->point);
-  if (hit->material < ui.studio.design().materials.size() && hit->material != ui.material) {
-    ui.material = hit->material;
+void PictureArea::pickAt(UiState& ui, Vec2f at, bool framing) {
+  framing_ = framing;
+  ui.studio.pick(toShare(at));
+}
+
+// The engine answers some frames later.
+void PictureArea::takePicked(UiState& ui) {
+  const std::shared_ptr<const Picked> picked = ui.studio.takePicked();
+  if (!picked || !picked->hit) return;
+  if (framing_) {
+    ui.control.frame(picked->bounds);
+    ui.moved();
+    return;
+  }
+  ui.control.setPivot(picked->point);
+  const uint32_t material = picked->material.index;
+  if (material < ui.studio.design().materials.size() && material != ui.material) {
+    ui.material = material;
     ui.textureField.clear();
   }
 }
@@ -204,7 +215,7 @@ void PictureArea::drag(UiState& ui) {
 }
 
 void PictureArea::end(UiState& ui) {
-  if (clicked_ && drag_ == Drag::orbit) pickAt(ui, pressedAt_);
+  if (clicked_ && drag_ == Drag::orbit) pickAt(ui, pressedAt_, false);
   if (drag_ == Drag::light || drag_ == Drag::rotate) ui.studio.endEdit();
   drag_ = Drag::none;
   clicked_ = false;
@@ -252,10 +263,8 @@ void PictureArea::draw(UiState& ui, const PictureShown& picture, const MarkedBox
   }
   fly(ui);
   if (hovered && !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_F, false))
-    if (const auto hit = pickIn(ui.studio, toPixel(ui, mouse()))) {
-      ui.control.frame(hit->bounds);
-      ui.moved();
-    }
+    pickAt(ui, mouse(), true);
+  takePicked(ui);
   if (picture.texture)
     ImGui::GetWindowDrawList()->AddImage(picture.texture, lo, ImVec2(lo.x + size.x, lo.y + size.y));
   drawLights(ui);

@@ -26,11 +26,12 @@ class PictureArea {
   void end(UiState& ui);
   void dragCamera(UiState& ui, Vec2f by);
   void dragLight(UiState& ui, Vec2f by);
-  void pickAt(UiState& ui, Vec2f at);
+  void pickAt(UiState& ui, Vec2f at, bool framing);
+  void takePicked(UiState& ui);
   void drawLights(UiState& ui);
   void drawSplit(UiState& ui);
   void fly(UiState& ui);
-  Vec2f toPixel(const UiState& ui, Vec2f at) const;
+  Vec2f toShare(Vec2f at) const;
   std::optional<Vec2f> toScreen(const UiState& ui, Vec3f point) const;
   int lightAt(const UiState& ui, Vec2f at) const;  // -1: none
   float splitX(const UiState& ui) const;
@@ -39,6 +40,7 @@ class PictureArea {
   Drag drag_ = Drag::none;
   bool clicked_ = false;  // pressed and not moved yet
   Vec2f pressedAt_, last_;
+  bool framing_ = false;  // what the next answer to a pick is for
 };
 
 }  // namespace lobelia::app

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "lobelia/app/viewer/window/panels.h"
-#include "lobelia/app/viewer/window/studio_gaps.h"
 #include "lobelia/io/image_io.h"
 
 namespace lobelia::app {
@@ -17,11 +16,11 @@ constexpr double kIdle = 0.03;         // seconds asleep at most, for what shows
 constexpr double kSettling = 1 / 60.;  // between frames while something moves
 constexpr int kSettlingFrames = 3;     // Dear ImGui shows some things a frame late
 
-// Throws UsageError when there is none of that name.
+// By name or, as `render` takes it, by index. Throws UsageError when there is none.
 const Camera& cameraNamed(const std::vector<Camera>& cameras, const std::string& name) {
   std::vector<std::string> known;
   for (const Camera& camera : cameras) {
-    if (camera.name == name) return camera;
+    if (camera.name == name || std::to_string(known.size()) == name) return camera;
     known.push_back(camera.name);
   }
   throw UsageError(fmt::format("--camera '{}': the scene has {}{}", name, fmt::join(known, ", "),
@@ -135,7 +134,7 @@ UiStage Viewer::stage() {
   UiState& ui = ui_.state();
   return {.marks = ui.marks,
           .picture = [this] { return ui_.pictureBox(); },
-          .drawn = [this] { return !busyIn(studio_, ui_.state()) && studio_.openFiles() == 0; },
+          .drawn = [this] { return !studio_.isBusy() && studio_.openFiles() == 0; },
           .says =
               [this](const std::string& text) {
                 return ui_.state().notes.says(text) ||
