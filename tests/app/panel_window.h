@@ -68,11 +68,11 @@ class PanelWindow : public testing::Test {
   std::string file(const std::string& name) const { return folder / name; }
 
   // A frame; pictures stay tiny, whatever the panels leave.
-  void frame() {
+  void frame(float pixelScale = 1, int largest = 8) {
     ImGuiIO& io = ImGui::GetIO();
     io.DeltaTime = 1 / 60.f;
     ImGui::NewFrame();
-    ui->draw({}, 1, 8);
+    ui->draw({}, pixelScale, largest);
     ImGui::Render();
     studio->update();
     ui->state().picture = studio->newestPicture();

@@ -154,6 +154,21 @@ TEST_F(WindowPanels, ADesignIsSavedAndComesBack) {
   EXPECT_FLOAT_EQ(material(materialNamed("metal")).alphaU.value, 0.4f);
 }
 
+TEST_F(WindowPanels, APictureHasThePixelsOfTheFramebufferAndHalfOfThemWhileMoving) {
+  ui->state().panels = false;
+  ImGui::GetIO().DisplaySize = ImVec2(40, 30);
+  frame(2, 4096);
+  EXPECT_EQ(studio->view().width, 80);
+  EXPECT_EQ(studio->view().height, 60);
+  ui->state().moved();
+  frame(2, 4096);
+  EXPECT_EQ(studio->view().width, 40);
+  EXPECT_EQ(studio->view().height, 30);
+  ui->state().smallWhileMoving = false;
+  frame(2, 64);
+  EXPECT_EQ(studio->view().width, 64) << "no larger than a texture can be";
+}
+
 TEST_F(WindowPanels, EmptyAndTinyWindowsAreDrawn) {
   for (const ImVec2 size : {ImVec2(1, 1), ImVec2(40, 3000), ImVec2(3000, 2), ImVec2(300, 200)}) {
     ImGui::GetIO().DisplaySize = size;

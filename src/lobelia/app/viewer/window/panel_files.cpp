@@ -29,7 +29,7 @@ void drawFilesPanel(UiState& ui) {
   if (ui.widgets.button("load design", named)) ui.studio.loadDesign(ui.designFile);
   fileField(ui.widgets, "picture file", ui.screenshotFile, kPictureEndings);
   if (ui.widgets.button("save picture", !ui.screenshotFile.empty()))
-    ui.studio.screenshot(ui.screenshotFile, ui.display);
+    ui.studio.screenshot(ui.screenshotFile, ui.shownDisplay());
   ui.widgets.hint(".exr: linear values; .png: as it is shown");
   ImGui::PopID();
 }

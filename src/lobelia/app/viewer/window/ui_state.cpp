@@ -32,6 +32,12 @@ UiState::UiState(Studio& engine, const Camera& first)
   screenshotFile = "picture.exr";
 }
 
+DisplaySettings UiState::shownDisplay() const {
+  DisplaySettings out = display;
+  out.split = split ? splitAt : -1;
+  return out;
+}
+
 bool UiState::moving() const {
   return movedAt != 0 && static_cast<double>(nanosecondsNow() - movedAt) * 1e-9 < kMovingSeconds;
 }

@@ -47,6 +47,8 @@ struct UiState {
   std::string textureFile, bumpFile, environmentFile, designFile, screenshotFile;
   float bumpScale = 0.01f;
 
+  // `display` with the split, for the picture that is shown.
+  DisplaySettings shownDisplay() const;
   // Is the camera being moved?
   bool moving() const;
   void moved();

@@ -120,8 +120,7 @@ bool Viewer::showNewest() {
     ui.display.curve = measureToneCurve(ui.picture->film, {});
     ui.measureCurve = false;
   }
-  DisplaySettings display = ui.display;
-  display.split = ui.split ? ui.splitAt : -1;
+  DisplaySettings display = ui.shownDisplay();
   display.width = ui.picture->film.width;
   display.height = ui.picture->film.height;
   const Displayed shown = displayPicture(*ui.picture, ui.truth.get(), display);
