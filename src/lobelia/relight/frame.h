@@ -40,11 +40,12 @@ class FrameRenderer {
   // The light of a frame, turned about the first environment's vertical axis (else +y). Seconds:
   // "light".
   FrameLight light(double degrees, const LightCutSettings& settings, Context& context) const;
-  // Fills the film's picture (layer ""). Same seed, same pixels for any number of threads. Seconds:
-  // "buffer", "merge", "shade": of the frame's time, shared out as threads spent theirs. Counts:
-  // "frames", "pixels", "object_pixels", "vertices_merged", "merged_nodes", "evaluations",
-  // "fine_chunks", "nonfinite" (samples, left out of their pixels; the first such pixel:
-  // noteNonFinitePixel()). Throws Cancelled when the context is.
+  // Fills the film's picture (layer "") and, where it has it, the layer "cost" (1 channel:
+  // evaluations of lobes for directions, per sample). Same seed, same pixels for any number of
+  // threads. Seconds: "buffer", "merge", "shade": of the frame's time, shared out as threads spent
+  // theirs. Counts: "frames", "pixels", "object_pixels", "vertices_merged", "merged_nodes",
+  // "evaluations", "fine_chunks", "nonfinite" (samples, left out of their pixels; the first such
+  // pixel: noteNonFinitePixel()). Throws Cancelled when the context is.
   void render(const FrameLight& light, const Camera& camera, const FrameSettings& settings,
               Film& film, Context& context);
 

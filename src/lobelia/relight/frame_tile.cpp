@@ -75,7 +75,9 @@ void FrameTile::shade(const FrameInput& input, size_t first, size_t end, TileCou
   for (size_t i = first; i < end; ++i) {
     const Pixel& pixel = pixels_[i];
     vertices_.forgetChunksIfMany();
+    const uint64_t evaluated = shader_.counts.evaluations;
     const Rgb value = radiance(input, pixel) * pixel.weight;
+    evaluations_[pixel.index] += shader_.counts.evaluations - evaluated;
     counts->objectPixels += pixel.hit ? 1 : 0;
     if (isFinite(value)) {
       sums_[pixel.index] += value;
@@ -103,6 +105,7 @@ TileCounts FrameTile::render(const FrameInput& input, int x0, int y0, int x1, in
   const FlushDenormals flush;  // tails of narrow lobes are full of them
   TileCounts counts;
   sums_.assign(kSize * kSize, Rgb{});
+  evaluations_.assign(kSize * kSize, 0);
   vertices_.begin(input.light, input.data.cuts, input.settings.cacheBytes);
   shader_.begin(input.light, input.emitters, input.lookup, input.settings.refined, &vertices_);
   shader_.counts = {};
@@ -133,13 +136,18 @@ TileCounts FrameTile::render(const FrameInput& input, int x0, int y0, int x1, in
   counts.pixels = shader_.counts;
 
   std::vector<float>& picture = film.layers.at("").values;
+  const auto cost = film.layers.find("cost");
   const float scale = 1 / static_cast<float>(input.settings.spp);
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
-      const Rgb value = sums_[static_cast<size_t>((y - y0) * kSize + x - x0)] * scale;
-      const size_t at =
-          3 * (static_cast<size_t>(y) * static_cast<size_t>(film.width) + static_cast<size_t>(x));
+      const size_t inTile = static_cast<size_t>((y - y0) * kSize + x - x0);
+      const Rgb value = sums_[inTile] * scale;
+      const size_t pixel =
+          static_cast<size_t>(y) * static_cast<size_t>(film.width) + static_cast<size_t>(x);
+      const size_t at = 3 * pixel;
       picture[at] = value.x, picture[at + 1] = value.y, picture[at + 2] = value.z;
+      if (cost != film.layers.end())
+        cost->second.values[pixel] = static_cast<float>(evaluations_[inTile]) * scale;
     }
   return counts;
 }

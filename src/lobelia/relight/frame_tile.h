@@ -51,6 +51,7 @@ class FrameTile {
 
   std::vector<Pixel> pixels_;  // blocks of 4 x 4, one after the other
   std::vector<Rgb> sums_;
+  std::vector<uint64_t> evaluations_;  // by pixel
   VertexCache vertices_;
   PixelShader shader_;
 };

@@ -68,8 +68,14 @@ size_t Desk::openJobs() const {
   return jobs_.size() + (jobRuns_ ? 1 : 0) + arrivals_.size();
 }
 
-Desk::Task Desk::next(bool canGoOn, Job* job, Wanted* wanted) {
+bool Desk::isBusy() const {
+  const std::scoped_lock lock(mutex_);
+  return pictureOpen_ || wanted_ || jobRuns_ || !jobs_.empty();
+}
+
+Desk::Task Desk::next(bool canGoOn, bool open, Job* job, Wanted* wanted) {
   std::unique_lock lock(mutex_);
+  pictureOpen_ = open;
   wake_.wait(lock, [&] { return stop_ || canGoOn || wanted_ || !jobs_.empty(); });
   if (stop_) return Task::stop;
   if (!jobs_.empty()) {
@@ -81,6 +87,7 @@ Desk::Task Desk::next(bool canGoOn, Job* job, Wanted* wanted) {
   if (!wanted_) return Task::go;
   *wanted = std::move(*wanted_);
   wanted_.reset();
+  pictureOpen_ = true;
   return Task::wanted;
 }
 
@@ -121,6 +128,10 @@ void Desk::arrive(Arrival arrival) {
 void Desk::message(Severity severity, std::string_view text) {
   if (severity == Severity::debug) return;
   const std::scoped_lock lock(mutex_);
+  // What every pass has to say is said once, or not at all.
+  const bool rendering = running_ && !runningJob_;
+  if (rendering && (severity == Severity::info || lastSaid_ == text)) return;
+  lastSaid_ = text;
   if (messages_.size() == kMostMessages) messages_.pop_front();
   messages_.push_back({severity, std::string(text)});
 }

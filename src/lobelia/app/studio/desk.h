@@ -52,12 +52,14 @@ class Desk : public Listener {
   std::vector<StudioMessage> takeMessages();
   std::vector<Arrival> takeArrivals();
   size_t openJobs() const;  // given and not done
+  // Is something to be rendered, or being rendered, but for the truth?
+  bool isBusy() const;
 
   // The worker's side.
   enum class Task : uint8_t { stop, job, wanted, go };
   // What is next: a job, something new that is wanted, or, when neither is there, to go on; where
-  // there is nothing to go on with, it waits.
-  Task next(bool canGoOn, Job* job, Wanted* wanted);
+  // there is nothing to go on with, it waits. open: is the picture not done (for isBusy())?
+  Task next(bool canGoOn, bool open, Job* job, Wanted* wanted);
   // While something is rendered, want() cancels its context: at once, or, of a first picture, after
   // some time only, so that who drags without end sees pictures. False: do not even begin, for
   // there is something else to be done.
@@ -67,7 +69,7 @@ class Desk : public Listener {
   void endJob();
   void publish(std::shared_ptr<const Picture> picture, bool truth);
   void arrive(Arrival arrival);
-  // Of contexts that report here. Infos and warnings; the oldest of many go.
+  // Of contexts that report here: warnings, and what jobs have to tell; the oldest of many go.
   void message(Severity severity, std::string_view text) override;
   void progress(std::string_view, double) override {}
 
@@ -81,9 +83,11 @@ class Desk : public Listener {
   bool jobRuns_ = false, stop_ = false;
   Context* running_ = nullptr;
   bool runningFirst_ = false, runningJob_ = false;
+  bool pictureOpen_ = false;  // the picture is not done
   int64_t since_ = 0;
   std::shared_ptr<const Picture> picture_, truth_;
   std::deque<StudioMessage> messages_;
+  std::string lastSaid_;
   std::vector<Arrival> arrivals_;
 };
 

@@ -52,7 +52,7 @@ void PictureMaker::restart() {
 }
 
 bool PictureMaker::isDone() const {
-  if (givenUp_) return true;
+  if (givenUp_ || !design_ || view_.width < 1 || view_.height < 1) return true;
   return view_.method == ViewMethod::cuts ? started_ : started_ && mean_.samples() >= view_.spp;
 }
 

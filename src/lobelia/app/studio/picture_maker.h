@@ -29,6 +29,8 @@ class PictureMaker {
   // Which step would be next.
   enum class Step : uint8_t { none, frame, look, pass, truth };
   Step next() const;
+  // Is there nothing more to be done to the picture?
+  bool isDone() const;
   // Does it: the picture after it, or of step truth the truth. Throws InputError (cuts refused, and
   // none were accepted before), RuntimeError, Cancelled; after a failure the picture is left as it
   // is until something else is wanted.
@@ -48,7 +50,6 @@ class PictureMaker {
   std::shared_ptr<Picture> pass(ViewMethod method, PassMean& mean, Context& context);
   void show(bool cuts, Context& context);
   void showCuts(Context& context);
-  bool isDone() const;
 
   Stage& stage_;
   const uint64_t seed_;

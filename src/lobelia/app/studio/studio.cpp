@@ -136,6 +136,34 @@ void Studio::screenshot(const std::string& file, const DisplaySettings& display)
   });
 }
 
+void Studio::pick(Vec2f place) {
+  const Camera camera = viewCamera(view_);
+  desk_.give([this, camera, place](Stage& stage, Context&) {
+    const Vec2f film{place.x * static_cast<float>(camera.width),
+                     place.y * static_cast<float>(camera.height)};
+    const std::optional<Hit> hit =
+        stage.tracer().intersect(generateRay(camera, film, {0.5f, 0.5f}));
+    auto picked = std::make_shared<Picked>();
+    picked->place = place;
+    if (hit) {
+      const SurfacePoint at = surfacePoint(stage.scene(), *hit);
+      const Instance& instance = stage.scene().instances[hit->instance];
+      picked->hit = true;
+      picked->point = at.p;
+      picked->normal = at.ng;
+      picked->material = instance.material;
+      picked->emitter = instance.emitter;
+    }
+    const std::scoped_lock lock(pickedMutex_);
+    picked_ = std::move(picked);
+  });
+}
+
+std::shared_ptr<const Picked> Studio::takePicked() {
+  const std::scoped_lock lock(pickedMutex_);
+  return std::exchange(picked_, nullptr);
+}
+
 bool Studio::update() {
   bool changed = false;
   for (Arrival& arrival : desk_.takeArrivals()) {
@@ -161,7 +189,7 @@ void Studio::work() {
   Job job;
   Wanted wanted;
   for (;;) {
-    switch (desk_.next(maker.next() != PictureMaker::Step::none, &job, &wanted)) {
+    switch (desk_.next(maker.next() != PictureMaker::Step::none, !maker.isDone(), &job, &wanted)) {
       case Desk::Task::stop:
         return;
       case Desk::Task::job:

@@ -30,6 +30,15 @@ struct StudioSettings {
 
 class PictureMaker;
 
+// What lies under a place of the picture.
+struct Picked {
+  Vec2f place;       // that was asked for
+  bool hit = false;  // or nothing does
+  Vec3f point, normal;
+  MaterialHandle material;  // of the design
+  EmitterHandle emitter;
+};
+
 class Studio {
  public:
   // Loads scene and data, which takes as long as it takes. Throws InputError, UsageError,
@@ -73,11 +82,18 @@ class Studio {
   // How many of these are under way.
   size_t openFiles() const { return desk_.openJobs(); }
 
+  // Looks at what lies under a place of the picture, (0,0) the top left corner, (1,1) the other;
+  // the answer comes a little later.
+  void pick(Vec2f place);
+  std::shared_ptr<const Picked> takePicked();  // null: no answer yet
+
   // Takes in what the worker has read. True when the design or the camera is another.
   bool update();
   // The newest picture and truth; null: none yet. The same pointer as before: nothing new.
   std::shared_ptr<const Picture> newestPicture() const { return desk_.picture(); }
   std::shared_ptr<const Picture> newestTruth() const { return desk_.truth(); }
+  // Is the picture, the truth left out, or a file not done?
+  bool isBusy() const { return desk_.isBusy(); }
   // What is to be said; each once.
   std::vector<StudioMessage> takeMessages() { return desk_.takeMessages(); }
 
@@ -96,6 +112,8 @@ class Studio {
   const std::shared_ptr<const Design> first_;  // the scene as read
   ViewState view_;
   Desk desk_;
+  std::mutex pickedMutex_;
+  std::shared_ptr<const Picked> picked_;
   std::thread thread_;  // last: it uses the others
 };
 
