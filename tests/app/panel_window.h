@@ -85,7 +85,7 @@ class PanelWindow : public testing::Test {
     writeText(file("hand.script"), text);
     app::UiPlayer player(app::readUiScript(file("hand.script")),
                          {ui->state().marks, [this] { return ui->pictureBox(); },
-                          [this] { return studio->openFiles() == 0; },
+                          [this] { return !studio->isBusy(); },
                           [this](const std::string& words) {
                             return ui->state().notes.says(words) ||
                                    app::statusText(ui->state()).find(words) != std::string::npos;

@@ -15,14 +15,17 @@ namespace {
 class WindowReal : public testing::Test {
  protected:
   std::string file(const std::string& name) const { return folder_ / name; }
-  // With variables for the environment or a display before the program.
+  // before: what stands before the program's name.
   ProgramResult run(const std::string& before, const std::string& options) const {
-    const std::string command = before + " " + LOBELIA_PROGRAM + " view " + file("scene.xml") +
-                                " " + options + " >" + file("out") + " 2>" + file("err") +
-                                " </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readText(file("out")),
-            readText(file("err"))};
+    // xvfb-run has exit codes of its own for troubles with its display's files.
+    writeText(file("run.sh"), std::string(LOBELIA_PROGRAM) + " view " + file("scene.xml") + " " +
+                                  options + " >" + file("out") + " 2>" + file("err") +
+                                  " </dev/null\necho $? >" + file("code") + "\n");
+    const std::string command = before + " sh " + file("run.sh") + " >" + file("before") + " 2>&1";
+    if (std::system(command.c_str()) == -1) return {};
+    const std::string code = readText(file("code"));
+    return {code.empty() ? -1 : std::stoi(code), readText(file("out")),
+            readText(file("err")) + (code.empty() ? readText(file("before")) : "")};
   }
   ProgramResult runScript(const std::string& script, const std::string& options = "") const {
     writeText(file("hand.script"), script);

@@ -149,6 +149,14 @@ void CameraControl::setPivot(Vec3f point) {
   if (away > pace_ * 1e-4) pivot_ = position_ + forward_ * away;
 }
 
+void CameraControl::approach(Vec3f point) {
+  pivot_ = wide(point);
+  const double away = std::max(length(pivot_ - position_) / 2, pace_ * 1e-3);
+  position_ = pivot_ - forward_ * away;
+  if (camera_.type == CameraType::orthographic) own_ = own_ * scaling({0.5, 0.5, 1});
+  write();
+}
+
 void CameraControl::frame(const Bounds3f& box) {
   if (box.empty()) return;
   const double radius = std::max(static_cast<double>(box.radius()), pace_ * 1e-4);

@@ -34,6 +34,8 @@ class CameraControl {
   void setFieldOfView(double radians);  // of the film's width, kept within 1 to 170 degrees
   // Turns about this point from now on, without moving.
   void setPivot(Vec3f point);
+  // Looks at the point, from half as far.
+  void approach(Vec3f point);
   // Looks at the box and fills the film with it, from the side that it is seen from.
   void frame(const Bounds3f& box);
   // Speed at which a person would like to fly: of scene units a second.

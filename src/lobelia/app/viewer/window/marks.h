@@ -14,6 +14,7 @@ namespace lobelia::app {
 struct MarkedBox {
   Vec2f lo, hi;
   bool visible = false;  // not scrolled out of sight
+  friend bool operator==(const MarkedBox&, const MarkedBox&) = default;
 };
 
 class Marks {

@@ -23,7 +23,7 @@ void drawFilesPanel(UiState& ui) {
   ImGui::PushID("files");
   fileField(ui.widgets, "design file", ui.designFile, kDesignEndings);
   const bool named = !ui.designFile.empty();
-  if (ui.widgets.button("save design", named)) ui.studio.saveDesign(ui.designFile);
+  if (ui.widgets.button("save design", named)) ui.saveDesign();
   ui.widgets.hint("what differs from the scene, for `lobelia render SCENE --design FILE`");
   ImGui::SameLine();
   if (ui.widgets.button("load design", named)) ui.studio.loadDesign(ui.designFile);

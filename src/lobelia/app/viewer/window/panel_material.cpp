@@ -183,6 +183,19 @@ void drawBump(UiState& ui) {
   ImGui::TreePop();
 }
 
+// With what it wraps. Materials that the scene has stand where they stood.
+void restore(Design& design, const Design& first, uint32_t material) {
+  if (material >= first.materials.size()) return;
+  design.materials[material] = first.materials[material];
+  for (const MaterialHandle h : {first.materials[material].a, first.materials[material].b})
+    if (h.valid()) restore(design, first, h.index);
+}
+
+void resetMaterial(UiState& ui) {
+  ui.edit(fmt::format("{}: as the scene has it", materialName(ui.studio.design(), ui.material)),
+          {true, true}, [&](Design& d) { restore(d, ui.sceneDesign, ui.material); });
+}
+
 }  // namespace
 
 void drawMaterialPanel(UiState& ui) {
@@ -198,7 +211,7 @@ void drawMaterialPanel(UiState& ui) {
   }
   drawTextureFile(ui);
   drawBump(ui);
-  if (ui.widgets.button("as the scene has it")) (void)0;
+  if (ui.widgets.button("as the scene has it")) resetMaterial(ui);
   ImGui::PopID();
 }
 

@@ -107,11 +107,13 @@ void drawMethodPanel(UiState& ui) {
   } else {
     drawProgressive(ui);
   }
-  if (ui.picture) {
-    drawFigures(*ui.picture);
-    drawTimes(*ui.picture);
-  }
   ImGui::PopID();
+}
+
+void drawTimePanel(UiState& ui) {
+  if (!ui.widgets.section("Time") || !ui.picture) return;
+  drawFigures(*ui.picture);
+  drawTimes(*ui.picture);
 }
 
 std::string statusText(const UiState& ui) {

@@ -9,8 +9,10 @@ namespace lobelia::app {
 void drawHistoryPanel(UiState& ui);   // undo, redo
 void drawMaterialPanel(UiState& ui);  // list, type, fields, textures, bump
 void drawLightPanel(UiState& ui);     // environment, rotation, exposure, emitters
-void drawMethodPanel(UiState& ui);    // method and settings, frame rate, time split
+void drawMethodPanel(UiState& ui);    // method and settings
 void drawDisplayPanel(UiState& ui);   // false colours, split view
+// Frame rate, passes, error, time split. Its height changes with every method: nothing goes below.
+void drawTimePanel(UiState& ui);
 void drawCameraPanel(UiState& ui);
 void drawFilesPanel(UiState& ui);  // designs, screenshots
 

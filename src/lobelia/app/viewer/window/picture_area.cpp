@@ -116,7 +116,7 @@ void PictureArea::takePicked(UiState& ui) {
   const std::shared_ptr<const Picked> picked = ui.studio.takePicked();
   if (!picked || !picked->hit) return;
   if (framing_) {
-    ui.control.frame(picked->bounds);
+    ui.control.approach(picked->point);
     ui.moved();
     return;
   }

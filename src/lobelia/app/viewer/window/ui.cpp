@@ -31,7 +31,7 @@ void Ui::handleKeys() {
         ui.studio.undo();
     }
     if (ImGui::IsKeyPressed(GLFW_KEY_Y)) ui.studio.redo();
-    if (pressed(GLFW_KEY_S) && !ui.designFile.empty()) ui.studio.saveDesign(ui.designFile);
+    if (pressed(GLFW_KEY_S) && !ui.designFile.empty()) ui.saveDesign();
     return;
   }
   if (pressed(GLFW_KEY_TAB)) ui.panels = !ui.panels;
@@ -70,6 +70,7 @@ void Ui::drawSide(const char* name, float x, float width, bool left) {
     drawMethodPanel(state_);
     drawDisplayPanel(state_);
     drawLightPanel(state_);
+    drawTimePanel(state_);
   }
   ImGui::End();
 }
@@ -96,9 +97,9 @@ void Ui::wantPicture(float pixelScale, int largest) {
     const float whole = std::round(length * pixelScale) * (small ? 0.5f : 1.f);
     return std::clamp(static_cast<int>(whole), 1, largest);
   };
-  ui.view.camera = ui.control.camera();
   ui.view.width = pixels(box_.hi.x - box_.lo.x);
   ui.view.height = pixels(box_.hi.y - box_.lo.y);
+  ui.view.camera = ui.control.fitted(ui.view.width, ui.view.height);
   ui.view.truth = ui.split;
   ui.view.white = ui.display.shown == Shown::illuminance;
   ui.view.cost = ui.display.shown == Shown::cost;

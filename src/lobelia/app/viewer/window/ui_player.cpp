@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kFramesToFind = 30;  // a panel may be scrolled first
 constexpr int kDragSteps = 8;
+constexpr int kQuietFrames = 4;
 
 }  // namespace
 
@@ -92,7 +93,10 @@ void UiPlayer::tap(int key, const UiStep& s) {
 // The widget of a step when it is in sight; empty: ask again with the next frame.
 std::optional<MarkedBox> UiPlayer::reach(const UiStep& step) {
   const std::optional<MarkedBox> box = stage_.marks.find(step.label);
-  if (box && box->visible && sought_ >= 2) {  // scrolling shows with the frame after
+  // Scrolling shows with the frame after; what still moves would be missed.
+  const bool still = box && *box == lastBox_;
+  lastBox_ = box.value_or(MarkedBox());
+  if (still && box->visible && sought_ >= 2) {
     sought_ = 0;
     stage_.seek("");
     return box;
@@ -158,7 +162,9 @@ bool UiPlayer::begin(const UiStep& step) {
       if (static_cast<double>(nanosecondsNow() - waitingSince_) * 1e-9 > kPatience)
         throw RuntimeError(
             fmt::format("{}: nothing was drawn for {} s", toString(step.where), kPatience));
-      if (++sought_ < 4 || !stage_.drawn()) return false;  // an edit shows after some frames
+      // What a job has read, and what an edit asks for, shows some frames later.
+      sought_ = stage_.drawn() ? sought_ + 1 : 0;
+      if (sought_ < kQuietFrames) return false;
       sought_ = 0;
       waitingSince_ = 0;
       return true;

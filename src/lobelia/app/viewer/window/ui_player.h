@@ -59,6 +59,7 @@ class UiPlayer {
   size_t next_ = 0;
   std::vector<Move> moves_;  // the last first
   int sought_ = 0;           // frames
+  MarkedBox lastBox_;        // of what is sought
   int64_t waitingSince_ = 0;
   int framesLeft_ = 0;
   Vec2f mouse_{-1, -1};

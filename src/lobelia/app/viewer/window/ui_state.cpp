@@ -27,9 +27,21 @@ bool among(const std::string& name, std::initializer_list<const char*> names) {
 }  // namespace
 
 UiState::UiState(Studio& engine, const Camera& first)
-    : studio(engine), view(engine.view()), control(first, engine.bounds()), firstCamera(first) {
+    : studio(engine),
+      view(engine.view()),
+      control(first, engine.bounds()),
+      firstCamera(first),
+      sceneDesign(engine.design()) {
   designFile = "design.xml";
   screenshotFile = "picture.exr";
+}
+
+void UiState::saveDesign() {
+  ViewState own = view;
+  own.camera = control.camera();
+  studio.setView(own);
+  studio.saveDesign(designFile);
+  studio.setView(view);
 }
 
 DisplaySettings UiState::shownDisplay() const {

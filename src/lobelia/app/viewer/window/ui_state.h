@@ -26,7 +26,8 @@ struct UiState {
   // control.camera().
   ViewState view;
   CameraControl control;
-  Camera firstCamera;  // what "reset" goes back to
+  Camera firstCamera;        // what "reset" goes back to
+  const Design sceneDesign;  // as it was read, for materials that go back to it
 
   DisplaySettings display;
   bool measureCurve = true;  // the automatic scale, on the next picture
@@ -54,6 +55,8 @@ struct UiState {
   void moved();
   // The same for every panel: an edit that a slider may go on with, and its end.
   void edit(const std::string& name, Touch touch, const std::function<void(Design&)>& change);
+  // With the camera's own field of view, whatever the window's shape.
+  void saveDesign();
   void clampChoices();  // after undo: what is chosen may be gone
 };
 

@@ -12,16 +12,17 @@
 namespace lobelia::app {
 namespace {
 
-constexpr double kIdle = 0.03;         // seconds asleep at most, for what shows by itself
-constexpr double kSettling = 1 / 60.;  // between frames while something moves
-constexpr int kSettlingFrames = 3;     // Dear ImGui shows some things a frame late
+// Seconds asleep at most: while something moves, while pictures are to come, and else, for what
+// shows by itself. Input ends each.
+constexpr double kSettling = 1 / 60., kDrawing = 1 / 30., kIdle = 0.5;
+constexpr int kSettlingFrames = 3;  // Dear ImGui shows some things a frame late
 
 // By name or, as `render` takes it, by index. Throws UsageError when there is none.
 const Camera& cameraNamed(const std::vector<Camera>& cameras, const std::string& name) {
   std::vector<std::string> known;
   for (const Camera& camera : cameras) {
     if (camera.name == name || std::to_string(known.size()) == name) return camera;
-    known.push_back(camera.name);
+    known.push_back(camera.name.empty() ? std::to_string(known.size()) : camera.name);
   }
   throw UsageError(fmt::format("--camera '{}': the scene has {}{}", name, fmt::join(known, ", "),
                                suggestion(name, known)));
@@ -48,7 +49,7 @@ void Viewer::run() {
   int settling = kSettlingFrames;
   while (!surface_.closing() && !context_.cancelled() && !(player_ && player_->finished())) {
     if (player_) settling = kSettlingFrames;
-    surface_.wait(player_ ? 0 : settling > 0 ? kSettling : kIdle);
+    surface_.wait(settling > 0 ? kSettling : picturesToCome() ? kDrawing : kIdle);
     for (const std::string& file : surface_.takeDropped()) takeFile(ui_.state(), file);
     if (studio_.update()) arrived();
     if (showNewest() || inputCame()) settling = kSettlingFrames;
@@ -91,6 +92,8 @@ void Viewer::recover() {
                         "of the design is lost");
 }
 
+bool Viewer::picturesToCome() const { return studio_.isBusy() || studio_.view().truth; }
+
 // Or something moves by itself, after input that came before.
 bool Viewer::inputCame() {
   return surface_.takeInput() || ImGui::IsAnyMouseDown() || ui_.state().moving();
@@ -100,10 +103,10 @@ bool Viewer::inputCame() {
 void Viewer::arrived() {
   UiState& ui = ui_.state();
   ui.clampChoices();
-  if (!(studio_.view().camera.toWorld.to == ui.view.camera.toWorld.to)) {
-    ui.firstCamera = studio_.view().camera;
-    ui.control.take(ui.firstCamera);
-  }
+  const Camera& camera = studio_.view().camera;
+  if (camera.toWorld.to == ui.view.camera.toWorld.to && camera.fovX == ui.view.camera.fovX) return;
+  ui.firstCamera = camera;
+  ui.control.take(camera);
 }
 
 // True when something new is to be seen.
@@ -133,7 +136,7 @@ UiStage Viewer::stage() {
   UiState& ui = ui_.state();
   return {.marks = ui.marks,
           .picture = [this] { return ui_.pictureBox(); },
-          .drawn = [this] { return !studio_.isBusy() && studio_.openFiles() == 0; },
+          .drawn = [this] { return !studio_.isBusy(); },
           .says =
               [this](const std::string& text) {
                 return ui_.state().notes.says(text) ||

@@ -28,6 +28,7 @@ class Viewer {
   void pause();
   void recover();
   bool inputCame();
+  bool picturesToCome() const;
   void arrived();
   bool showNewest();
   UiStage stage();
