@@ -12,7 +12,7 @@
 namespace lobelia::app {
 namespace {
 
-constexpr float kPanelLetters = 21;     // a panel's width in letters' heights
+constexpr float kPanelLetters = 22;     // a panel's width in letters' heights
 constexpr float kLeastPicture = 0.25f;  // of the window's width; narrower, and the panels give way
 
 bool pressed(int key) { return ImGui::IsKeyPressed(key, false); }
@@ -65,11 +65,11 @@ void Ui::drawSide(const char* name, float x, float width, bool left) {
     drawHistoryPanel(state_);
     drawMaterialPanel(state_);
     drawCameraPanel(state_);
-    drawFilesPanel(state_);
   } else {
     drawMethodPanel(state_);
     drawDisplayPanel(state_);
     drawLightPanel(state_);
+    drawFilesPanel(state_);
     drawTimePanel(state_);
   }
   ImGui::End();

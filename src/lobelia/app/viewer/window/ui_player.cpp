@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kFramesToFind = 30;  // a panel may be scrolled first
 constexpr int kDragSteps = 8;
+constexpr Vec2f kAway{-1, -1};  // outside of the window
 constexpr int kQuietFrames = 4;
 
 }  // namespace
@@ -135,6 +136,7 @@ bool UiPlayer::begin(const UiStep& step) {
         moves_.insert(moves_.begin(), Move{.characters = step.text});
         tap(GLFW_KEY_ENTER, {});
       }
+      moves_.insert(moves_.begin(), Move{.to = kAway});  // hints would cover what is beside it
       return true;
     }
     case Kind::clickPicture:

@@ -11,7 +11,7 @@
 namespace lobelia::app {
 namespace {
 
-constexpr float kLabelShare = 0.42f;  // of a panel's width
+constexpr float kLabelShare = 0.44f;  // of a panel's width
 
 ImVec4 onScreen(Rgb linear) {
   const auto shown = [](float x) { return encodeSrgb(std::clamp(x, 0.f, 1.f)); };
