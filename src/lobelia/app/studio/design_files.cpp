@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "lobelia/app/load_scene.h"
+#include "lobelia/app/studio/view_state.h"
 #include "lobelia/io/image_io.h"
 
 namespace lobelia::app {
@@ -34,6 +35,13 @@ void nameNewLights(std::vector<Emitter>& emitters, size_t first, const std::stri
   }
 }
 
+// A new one stands in front.
+size_t changedCamera(const std::vector<Camera>& before, const std::vector<Camera>& now) {
+  if (before.size() != now.size()) return 0;
+  const auto at = std::mismatch(before.begin(), before.end(), now.begin(), sameRays).first;
+  return at != before.end() ? static_cast<size_t>(at - before.begin()) : 0;
+}
+
 }  // namespace
 
 ReadDesign readDesign(const Design& base, const std::string& file, bool strict, Context& context) {
@@ -53,6 +61,7 @@ ReadDesign readDesign(const Design& base, const std::string& file, bool strict, 
   for (size_t i = imageCount; i < scene.images.size(); ++i)
     design->images.push_back(std::make_shared<StoredImage>(std::move(scene.images[i])));
   compact(*design);
+  out.camera = changedCamera(base.cameras, design->cameras);
   out.design = std::move(design);
   return out;
 }

@@ -12,6 +12,7 @@ namespace lobelia::app {
 struct ReadDesign {
   std::shared_ptr<const Design> design;
   io::DesignParts parts;
+  size_t camera = 0;  // that the file brings, the first of several
 };
 // A design file applied to `base`. New lights without a name get one, so that the file replaces
 // them when it is read again. Throws InputError, and of warnings where strict. Warnings go to the

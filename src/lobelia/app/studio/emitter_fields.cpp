@@ -47,7 +47,7 @@ Vec3d wide(Vec3f v) {
 // Its axes, with +z along d.
 Transform towards(Vec3f position, Vec3f d) {
   const Vec3d up = std::abs(d.y) < 0.99f ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
-  const std::optional<Mat4> matrix = lookAt(wide(position), wide(position + d), up);
+  const std::optional<Mat4> matrix = lookAt(wide(position), wide(position) + wide(d), up);
   return matrix ? Transform(*matrix) : Transform(translation(wide(position)));
 }
 
@@ -131,6 +131,7 @@ Vec3f emitterValue(const Emitter& e, EmitterField field) {
 void setEmitterValue(Emitter& e, EmitterField field, Vec3f value) {
   for (const EmitterFieldInfo& info : emitterFields(e.type)) {
     if (info.field != field) continue;
+    if (!isFinite(value)) return;
     for (int i = 0; i < 3; ++i) value[i] = clamped(value[i], info);
   }
   switch (field) {

@@ -38,7 +38,7 @@ const EmitterFieldInfo& findEmitterField(EmitterType type, const std::string& wo
                                          const Location& where);
 // Values; x alone where there is one. Angles in degrees.
 Vec3f emitterValue(const Emitter& emitter, EmitterField field);
-// Brought into range. A direction of length 0 changes nothing.
+// Brought into range. What is not finite, and a direction of length 0, changes nothing.
 void setEmitterValue(Emitter& emitter, EmitterField field, Vec3f value);
 
 // New lights: of types point, spot (down), directional (down), constant. The intensity of a point

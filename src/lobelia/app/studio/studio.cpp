@@ -112,7 +112,7 @@ void Studio::loadDesign(const std::string& file) {
                   [this, read](Design& d) {
                     d = *read.design;
                     if (read.parts.emitters) d.rotation = 0;
-                    if (read.parts.cameras) view_.camera = d.cameras.front();
+                    if (read.parts.cameras) view_.camera = d.cameras.at(read.camera);
                   },
                   [this, file] { loadDesign(file); }});
   });

@@ -3,20 +3,14 @@
 #include <algorithm>
 
 namespace lobelia::app {
-namespace {
 
-bool sameTransform(const Transform& a, const Transform& b) { return a.to == b.to; }
-
-// Of what a ray through the film depends on.
-bool sameCamera(const Camera& a, const Camera& b) {
-  return a.type == b.type && sameTransform(a.toWorld, b.toWorld) && a.fovX == b.fovX &&
+bool sameRays(const Camera& a, const Camera& b) {
+  return a.type == b.type && a.toWorld.to == b.toWorld.to && a.fovX == b.fovX &&
          a.principalPointOffset == b.principalPointOffset && a.nearClip == b.nearClip &&
          a.farClip == b.farClip && a.apertureRadius == b.apertureRadius &&
          a.focusDistance == b.focusDistance && a.filter == b.filter &&
          a.filterRadius == b.filterRadius;
 }
-
-}  // namespace
 
 const std::vector<std::string>& viewMethodNames() {
   static const std::vector<std::string> names{"cuts", "path", "sglc", "vsl", "vsgl"};
@@ -71,20 +65,21 @@ RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp) {
       break;
     case ViewMethod::vsgl:
       options.lights = "vsgl", options.gather = "all";
+      quick(1000);
       break;
   }
   return options;
 }
 
 bool samePicture(const ViewState& a, const ViewState& b) {
-  return sameCamera(a.camera, b.camera) && a.width == b.width && a.height == b.height &&
+  return sameRays(a.camera, b.camera) && a.width == b.width && a.height == b.height &&
          a.method == b.method && a.lightCut == b.lightCut && a.refined == b.refined &&
          a.cutsSpp == b.cutsSpp && a.cropped == b.cropped && a.lightCount == b.lightCount &&
          a.maxDepth == b.maxDepth && a.cost == b.cost && a.white == b.white;
 }
 
 bool sameTruth(const ViewState& a, const ViewState& b) {
-  return sameCamera(a.camera, b.camera) && a.width == b.width && a.height == b.height &&
+  return sameRays(a.camera, b.camera) && a.width == b.width && a.height == b.height &&
          depthOf(a) == depthOf(b) && a.white == b.white;
 }
 

@@ -42,6 +42,8 @@ int depthOf(const ViewState& view);
 // What `render` would be told for a pass of so many samples per pixel. method: not cuts.
 RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp);
 
+// Do rays through the films of two cameras run alike? The films' sizes do not count.
+bool sameRays(const Camera& a, const Camera& b);
 // Do two views show other pictures? Of the truth, of the method's own.
 bool samePicture(const ViewState& a, const ViewState& b);
 bool sameTruth(const ViewState& a, const ViewState& b);

@@ -83,7 +83,7 @@ bool sameCamera(const Camera& a, const Camera& b) {
   return a.type == b.type && a.toWorld.to == b.toWorld.to && a.fovX == b.fovX &&
          a.principalPointOffset == b.principalPointOffset && a.nearClip == b.nearClip &&
          a.farClip == b.farClip && a.apertureRadius == b.apertureRadius &&
-         a.focusDistance == b.focusDistance && a.width == b.width && a.height == b.height &&
+         (a.focusDistance == b.focusDistance || a.apertureRadius == 0) && a.width == b.width && a.height == b.height &&
          a.cropX0 == b.cropX0 && a.cropY0 == b.cropY0 && a.cropX1 == b.cropX1 &&
          a.cropY1 == b.cropY1 && a.filter == b.filter && a.filterRadius == b.filterRadius &&
          a.spp == b.spp &&

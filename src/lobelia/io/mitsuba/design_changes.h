@@ -9,6 +9,7 @@ namespace lobelia::io::mitsuba {
 bool sameMaterial(const std::vector<Material>& a, MaterialHandle x, const std::vector<Material>& b,
                   MaterialHandle y);
 bool sameEmitter(const Emitter& a, const Emitter& b);
+// Without a lens it does not count where it would focus.
 bool sameCamera(const Camera& a, const Camera& b);
 
 }  // namespace lobelia::io::mitsuba

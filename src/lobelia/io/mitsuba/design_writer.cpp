@@ -45,6 +45,15 @@ bool isSurrounding(EmitterType type) {
   return type == EmitterType::constant || type == EmitterType::environment;
 }
 
+// Another may have a name that looks like this one's place.
+template <class T>
+void requireMeant(const std::vector<T>& items, const std::string& id, size_t index,
+                  const std::string& file) {
+  if (namedInDesign(items, id) != std::vector<size_t>{index})
+    throw RuntimeError(fmt::format(
+        "cannot write {}: '{}' is the name of something else in the scene; rename that", file, id));
+}
+
 // By its role an environment or sun needs no name; of several, the first.
 bool isFirstOfItsRole(const std::vector<Emitter>& emitters, size_t index) {
   const EmitterType type = emitters[index].type;
@@ -89,6 +98,7 @@ std::string Writer::designImage(ImageHandle handle) {
 
 void Writer::writeDesign(const std::string& file, const Scene& before) {
   isDesign_ = true;
+  designFile_ = file;
   designImages_ = cleanName(fs::path(file).stem().string()) + "_textures";
   imageFiles_.resize(scene_.images.size());
   root_ = document_.append_child("scene");
@@ -112,6 +122,7 @@ void Writer::writeChangedMaterials(const Scene& before) {
     if (standsAlone[i] == 0 || sameMaterial(before.materials, {i}, scene_.materials, {i})) continue;
     std::string id = designName(before.materials, i);
     if (ids_.make(id, "") != id) id = placeName("material", i);
+    requireMeant(before.materials, id, i, designFile_);
     writeMaterial(root_, scene_.materials[i], id);
   }
 }
@@ -129,6 +140,7 @@ void Writer::writeChangedEmitters(const Scene& before) {
     const bool plain = cleanName(id) == id && !id.empty();
     if (role && !isFirstOfItsRole(before.emitters, i)) id = placeName("emitter", i);
     if ((role && !plain) || (plain && ids_.make(id, "") != id)) id = placeName("emitter", i);
+    if (!role || id == placeName("emitter", i)) requireMeant(before.emitters, id, i, designFile_);
     writeEmitter(emitter, id);
   }
 }

@@ -90,7 +90,7 @@ class Writer {
   // Designs: materials stand within those that they are part of, images where they came from; the
   // folder for those that came from nowhere.
   bool isDesign_ = false;
-  std::string designImages_;
+  std::string designFile_, designImages_;
   std::vector<std::string> imageFiles_, meshTypes_, meshFiles_, materialIds_, emitterIds_;
   std::map<std::pair<uint32_t, bool>, std::string> textureIds_;  // by handle and use as a number
   std::set<uint32_t> rawImages_;  // PNG images whose numbers are the values
