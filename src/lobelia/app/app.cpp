@@ -112,7 +112,7 @@ struct CommandLine {
     precomputeCommand = app.add_subcommand("precompute", "Compute what view needs of a scene");
     addPrecomputeOptions(*precomputeCommand, precompute);
     viewCommand =
-        app.add_subcommand("view", "Frames of a scene under changing light, from its data");
+        app.add_subcommand("view", "Change light and materials by hand, in a window or by frames");
     addViewOptions(*viewCommand, view);
     relightCommand =
         app.add_subcommand("relight", "Mix a picture's light groups anew, without rendering");

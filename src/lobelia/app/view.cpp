@@ -10,17 +10,18 @@
 #include "lobelia/app/option_checks.h"
 #include "lobelia/app/signals.h"
 #include "lobelia/app/view_frames.h"
+#include "lobelia/app/viewer/window_run.h"
 #include "lobelia/base/parallel.h"
 
 namespace lobelia::app {
 namespace {
 
 void requireView(const ViewOptions& options) {
-  if (!options.headless) {
-    throw UsageError(
-        "this build draws without a window: add --headless, and -o FILE for the pictures");
-  }
   const RenderOptions& render = options.render;
+  if (!options.uiScript.empty())
+    throw UsageError(
+        "--ui-script plays at the window, which --headless has not; --script is for "
+        "frames without one");
   if (options.data.empty() && options.script.empty())
     throw UsageError(
         "--data is required: what `lobelia precompute` made of the scene; only scripts that choose "
@@ -47,9 +48,12 @@ void addViewOptions(CLI::App& c, ViewOptions& o) {
   c.add_option("--data", o.data,
                "Visibility of the scene, by `lobelia precompute`; needed for cuts")
       ->type_name("FILE");
+  c.add_option("--ui-script", o.uiScript,
+               "Plays mouse and keys at the window, then closes it (docs/manual.md)")
+      ->type_name("FILE");
   c.add_option("--script", o.script, "Camera moves, edits and frames, one a line (docs/manual.md)")
       ->type_name("FILE");
-  c.add_flag("--headless", o.headless, "Draw without a window (the only way so far)");
+  c.add_flag("--headless", o.headless, "Draw without a window");
   c.add_option("-o,--output", o.render.outputs,
                "Picture to write: .exr (linear), .png (tone-mapped)")
       ->type_name("FILE")
@@ -84,6 +88,7 @@ void addViewOptions(CLI::App& c, ViewOptions& o) {
 
 ExitCode view(const ViewOptions& options, const GlobalOptions& global,
               const std::string& commandLine) {
+  if (!options.headless) return runWindow(options, global, commandLine);
   requireView(options);
   const ThreadLimit threads(global.threads);
   Console console(global.verbosity());

@@ -1,5 +1,5 @@
 // `lobelia view`: frames of a scene under light from infinity, by precomputed visibility cuts
-// (relight/frame.h). Without a window so far.
+// (relight/frame.h); in a window (viewer/window_run.h) or, headless, into files.
 #pragma once
 
 #include <string>
@@ -13,6 +13,7 @@ struct ViewOptions {
   RenderOptions render;  // of which addViewOptions() sets what a frame needs
   std::string data;      // `lobelia precompute`
   std::string script;    // view_script.h; "": none
+  std::string uiScript;  // viewer/ui_script.h; "": none
   bool headless = false;
   size_t lightCut = 512;    // nodes
   double rotate = 0;        // of the environment, degrees

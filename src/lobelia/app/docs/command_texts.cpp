@@ -76,15 +76,18 @@ const std::map<std::string, CommandTexts>& texts() {
          {"lobelia precompute room --method cuts --light surfaces -o room.cuts",
           "For one bounce of light of lamps in a room"}}}},
       {"view",
-       {"Draws frames of a scene whose visibility was precomputed: light from infinity "
-        "(environments, suns, directional emitters) that arrives straight at the first surface. "
-        "Light, materials and camera may be other ones than before; the geometry may not.\n\n"
-        "Lights at finite places are seen but light nothing; of materials that transmit light "
-        "only reflections are shown.",
+       {"Opens a window in which materials, lights and camera are changed by hand, or, with "
+        "--headless, draws frames into files.\n\n"
+        "Pictures come from precomputed visibility (--data): light from infinity (environments, "
+        "suns, directional emitters) that arrives straight at the first surface. Light, materials "
+        "and camera may be other ones than before; the geometry may not. Lights at finite places "
+        "are seen but light nothing; of materials that transmit light only reflections are shown. "
+        "In the window, and in scripts, the methods of `render` draw all light, pass by pass.",
         {{"DATA", "Visibility cuts of the scene's vertices"},
          {"*.exr", "Scene-linear RGB (sRGB primaries, 32-bit float), and metadata"},
          {"*.png", "Tone-mapped by Reinhard's global operator, sRGB"}},
-        {{"lobelia view teapot --sky 3,1,0.5,1 --data teapot.cuts --headless -o teapot.png",
+        {{"lobelia view machine --data machine.cuts", "The window"},
+         {"lobelia view teapot --sky 3,1,0.5,1 --data teapot.cuts --headless -o teapot.png",
           "One picture under sun and sky"},
          {"lobelia view scene.xml --data scene.cuts --headless --frames 36 --rotate-step 10 -o "
           "turn%02d.exr",
