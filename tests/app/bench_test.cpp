@@ -233,6 +233,24 @@ TEST(BenchCuts, ClustersAndWavelets) {
   EXPECT_TRUE(std::filesystem::exists(folder / "figure8a-statue.svg"));
 }
 
+TEST(BenchCuts, MaterialsOfOneVisibility) {
+  const TemporaryFolder folder;
+  const json result = runBench(
+      "cuts --scene statue --detail 0.05 --camera bust --size 32x24 --spp 64 --num-lights 1024 "
+      "--figures 6 -o " +
+      folder.path());
+  const json& rows = result["figure6"];
+  expectNumbers(rows, 8, {"l2", "mean_ratio", "fps"});
+  EXPECT_EQ(rows[0]["material"], "matt");
+  for (const json& row : rows) {  // of a mesh this coarse a few percent are lost
+    EXPECT_NEAR(row["mean_ratio"].get<double>(), 1, 0.1) << row;
+    EXPECT_LT(row["l2"], 0.2) << row;
+  }
+  expectPictures(folder, "cuts",
+                 {"figure6-statue-ward-cuts", "figure6-statue-ward-path",
+                  "figure6-statue-star-cuts", "figure6-statue-bump-cuts"});
+}
+
 TEST(BenchVsl, MethodsSideBySide) {
   const TemporaryFolder folder;
   const json result = runBench("vsl --scene study-ggx --figures 1,2,6,7" +

@@ -57,7 +57,7 @@ Film emptyFrame(const Camera& camera) {
 }
 
 const std::vector<std::string>& cutsFigures() {
-  static const std::vector<std::string> figures{"5", "8", "9", "10", "sigma"};
+  static const std::vector<std::string> figures{"5", "6", "8", "9", "10", "sigma"};
   return figures;
 }
 
@@ -70,6 +70,7 @@ std::vector<BenchTable> benchCuts(const BenchOptions& options, Context& context)
       const bool clusters = figures.contains("5"), wavelets = figures.contains("8");
       if ((clusters || wavelets) && !context.cancelled())
         compareTrees(scene, clusters, wavelets, study);
+      if (figures.contains("6") && !context.cancelled()) cutsMaterials(scene, study);
       if (figures.contains("9") && !context.cancelled()) cutsData(scene, study);
       const bool lightCuts = figures.contains("10"), sigmas = figures.contains("sigma");
       if ((lightCuts || sigmas) && !context.cancelled()) cutsError(scene, lightCuts, sigmas, study);
