@@ -216,9 +216,10 @@ TEST(BenchCuts, ClustersAndWavelets) {
   EXPECT_LT(clusters[0]["spread"], clusters[2]["spread"]) << "by places, by visibility";
   EXPECT_GT(clusters[0]["visibility"], clusters[2]["visibility"]);
   const json& schemes = result["figure8b"];
-  expectNumbers(schemes, 9, {"sigma", "cut", "rms", "cut_front", "rms_front"});
+  expectNumbers(schemes, 12, {"sigma", "cut", "rms", "cut_front", "rms_front"});
   EXPECT_TRUE(schemes[0]["gain"].is_null());
   EXPECT_GT(schemes[2]["gain"], 0) << "data-driven";
+  EXPECT_GT(schemes[2]["gain_rms"], schemes[2]["gain"]) << "its error is lower, too";
   EXPECT_GT(schemes[0]["cut"], schemes[6]["cut"]) << "sigma 1.5, sigma 3";
   EXPECT_EQ(schemes[3]["cut"], clusters[0]["cut"]) << "sigma 2";
   const json& wavelets = result["figure8a"];
@@ -236,7 +237,7 @@ TEST(BenchCuts, ClustersAndWavelets) {
 TEST(BenchCuts, MaterialsOfOneVisibility) {
   const TemporaryFolder folder;
   const json result = runBench(
-      "cuts --scene statue --detail 0.05 --camera bust --size 32x24 --spp 64 --num-lights 1024 "
+      "cuts --scene statue --detail 0.05 --camera bust --size 24x18 --spp 64 --num-lights 1024 "
       "--figures 6 -o " +
       folder.path());
   const json& rows = result["figure6"];

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "lobelia/app/bench_cuts_vertices.h"
+#include "lobelia/app/bench_plot.h"
 #include "lobelia/app/study_tree.h"
 #include "lobelia/base/random.h"
 #include "lobelia/relight/light_cut.h"
@@ -24,9 +25,9 @@ struct Metric {
 };
 constexpr Metric kMetrics[] = {{"geometric", 1}, {"mixed", 0.5f}, {"data-driven", 0}};
 constexpr float kBetas[] = {1, 0.5f, 0};
-constexpr double kSigmas[] = {1.5, 2, 3};  // the paper's range
-constexpr size_t kMiddle = 1;              // of figure 5
-constexpr int kDepth = 9;                  // of the clusters shown: 512 of them
+constexpr double kSigmas[] = {1.5, 2, 3, 4};  // the paper's range, and one more
+constexpr size_t kMiddle = 1;                 // of figure 5
+constexpr int kDepth = 9;                     // of the clusters shown: 512 of them
 constexpr size_t kLightNodes = 512;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -204,12 +205,14 @@ class ClusterStudy {
           {"cut", "cut", "{:.0f}"},
           {"rms", "RMS", "{:.3f}"},
           {"gain", "gain", "{:.2f}"},
+          {"gain_rms", "at equal RMS", "{:.2f}"},
           {"cut_front", "cut, in front", "{:.0f}"},
           {"rms_front", "RMS, in front", "{:.3f}"},
           {"gain_front", "gain, in front", "{:.2f}"}},
          {},
          {fmt::format("{} directions, {:.0f} vertices; gain: part of the geometric tree's nodes "
-                      "that is saved. In front: only samples in front of one of a vertex' faces "
+                      "that is saved, at equal sigma and (interpolated) at equal RMS. In front: "
+                      "only samples in front of one of a vertex' faces "
                       "count, else all.",
                       samples_.count(), vertexCount_)}});
     for (size_t s = 0; s < std::size(kSigmas); ++s)
@@ -220,7 +223,8 @@ class ClusterStudy {
         };
         table.rows.push_back({name_, std::string(kMetrics[m].name), kSigmas[s], size(cost.all[s]),
                               rms(cost.all[s].squaredError, allSamples()),
-                              gain(cost.all[s], geometric.all[s]), size(cost.front[s]),
+                              gain(cost.all[s], geometric.all[s]),
+                              m == 0 ? kNone : gainAtEqualRms(m, s), size(cost.front[s]),
                               rms(cost.front[s].squaredError, cost.frontSamples),
                               gain(cost.front[s], geometric.front[s])});
       }
@@ -228,6 +232,14 @@ class ClusterStudy {
 
  private:
   double allSamples() const { return vertexCount_ * static_cast<double>(samples_.count()); }
+  // Of the metric m over the geometric one, at the error of the latter for sigma s.
+  double gainAtEqualRms(size_t m, size_t s) const {
+    std::vector<std::pair<double, double>> sizes;
+    for (const CutCost& cut : costs_[m].all)
+      sizes.emplace_back(rms(cut.squaredError, allSamples()), size(cut));
+    const CutCost& geometric = costs_[0].all[s];
+    return 1 - interpolated(sizes, rms(geometric.squaredError, allSamples())) / size(geometric);
+  }
   double size(const CutCost& cut) const { return static_cast<double>(cut.nodes) / vertexCount_; }
   static double rms(double squares, double count) { return std::sqrt(squares / count); }
 
