@@ -245,7 +245,7 @@ TEST(BenchCuts, MaterialsOfOneVisibility) {
   EXPECT_EQ(rows[0]["material"], "matt");
   for (const json& row : rows) {  // of a mesh this coarse a few percent are lost
     EXPECT_NEAR(row["mean_ratio"].get<double>(), 1, 0.1) << row;
-    EXPECT_LT(row["l2"], 0.2) << row;
+    EXPECT_LT(row["l2"], 0.3) << row;
   }
   expectPictures(folder, "cuts",
                  {"figure6-statue-ward-cuts", "figure6-statue-ward-path",
