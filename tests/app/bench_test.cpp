@@ -185,7 +185,7 @@ TEST(BenchVsgl, TimesAndCuts) {
 TEST(BenchCuts, DataAndError) {
   const TemporaryFolder folder;
   const json result = runBench(
-      "cuts --scene statue --detail 0.05 --size 48x36 --spp 32 --num-lights 2048 "
+      "cuts --scene statue --detail 0.05 --size 32x24 --spp 32 --num-lights 2048 "
       "--figures 9,10,sigma -o " +
       folder.path());
   const json& data = result["figure9"];
