@@ -12,6 +12,7 @@ const std::string kBase =
     "--clamp 0.3 --size 32x24 --spp 1 --num-lights 1500 --component indirect --seed 2 ";
 
 TEST_F(BaselinesRender, LightSlice) {
+  scene_ = kMicrofacets;
   const Film all = render(kBase, "all");
   double before = 0.03;
   for (const int columns : {30, 120, 480}) {
@@ -104,6 +105,7 @@ TEST_F(BaselinesRender, RichVplsOfFaintLightAreFinite) {
 }
 
 TEST_F(BaselinesRender, RichVpls) {
+  scene_ = kMicrofacets;
   const Film all = render(kBase + "--near-lights 0", "all");
   for (const std::string form : {"cube --richvpl-texels 32", "vmf"}) {
     double before = 0.05;

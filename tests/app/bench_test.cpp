@@ -185,8 +185,8 @@ TEST(BenchVsgl, TimesAndCuts) {
 TEST(BenchCuts, DataAndError) {
   const TemporaryFolder folder;
   const json result = runBench(
-      "cuts --scene statue --detail 0.05 --size 48x36 --spp 32 --num-lights 2048 "
-      "-o " +
+      "cuts --scene statue --detail 0.05 --size 32x24 --spp 32 --num-lights 2048 "
+      "--figures 9,10,sigma -o " +
       folder.path());
   const json& data = result["figure9"];
   expectNumbers(data, 2, {"vertices", "seconds", "mrays", "mb", "cut", "rms", "bytes"});
@@ -203,6 +203,53 @@ TEST(BenchCuts, DataAndError) {
   EXPECT_GT(sigma[0]["l2"], sigma[3]["l2"]);
   EXPECT_LT(sigma[0]["cut"], sigma[3]["cut"]);
   expectPictures(folder, "cuts", {"figure10-statue-path", "figure10-statue-512"});
+}
+
+TEST(BenchCuts, ClustersAndWavelets) {
+  const TemporaryFolder folder;
+  const json result =
+      runBench("cuts --scene statue --detail 0.05 --num-lights 1024 --pixels 32 --figures 5,8 -o " +
+               folder.path());
+  const json& clusters = result["figure5"];
+  expectNumbers(clusters, 3, {"beta", "spread", "visibility", "cut", "rms", "light"});
+  EXPECT_EQ(clusters[0]["metric"], "geometric");
+  EXPECT_LT(clusters[0]["spread"], clusters[2]["spread"]) << "by places, by visibility";
+  EXPECT_GT(clusters[0]["visibility"], clusters[2]["visibility"]);
+  const json& schemes = result["figure8b"];
+  expectNumbers(schemes, 12, {"sigma", "cut", "rms", "cut_front", "rms_front"});
+  EXPECT_TRUE(schemes[0]["gain"].is_null());
+  EXPECT_GT(schemes[2]["gain"], 0) << "data-driven";
+  EXPECT_GT(schemes[2]["gain_rms"], schemes[2]["gain"]) << "its error is lower, too";
+  EXPECT_GT(schemes[0]["cut"], schemes[6]["cut"]) << "sigma 1.5, sigma 3";
+  EXPECT_EQ(schemes[3]["cut"], clusters[0]["cut"]) << "sigma 2";
+  const json& wavelets = result["figure8a"];
+  expectNumbers(wavelets, 30, {"sigma", "terms", "rms", "wavelets", "more"});
+  for (size_t tree = 0; tree < 30; tree += 6) {
+    EXPECT_GT(wavelets[tree]["rms"], wavelets[tree + 4]["rms"]);
+    EXPECT_EQ(wavelets[tree + 5]["rms"], 0) << "sigma 0";
+    EXPECT_EQ(wavelets[tree + 5]["wavelets"], wavelets[5]["wavelets"]) << "whatever the tree";
+  }
+  EXPECT_GE(wavelets[5]["terms"], wavelets[5]["wavelets"]) << "quad tree";
+  expectPictures(folder, "cuts", {"figure5-statue-geometric", "figure5-statue-data-driven"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "figure8a-statue.svg"));
+}
+
+TEST(BenchCuts, MaterialsOfOneVisibility) {
+  const TemporaryFolder folder;
+  const json result = runBench(
+      "cuts --scene statue --detail 0.05 --camera bust --size 24x18 --spp 64 --num-lights 1024 "
+      "--figures 6 -o " +
+      folder.path());
+  const json& rows = result["figure6"];
+  expectNumbers(rows, 8, {"l2", "mean_ratio", "fps"});
+  EXPECT_EQ(rows[0]["material"], "matt");
+  for (const json& row : rows) {  // of a mesh this coarse a few percent are lost
+    EXPECT_NEAR(row["mean_ratio"].get<double>(), 1, 0.1) << row;
+    EXPECT_LT(row["l2"], 0.3) << row;
+  }
+  expectPictures(folder, "cuts",
+                 {"figure6-statue-ward-cuts", "figure6-statue-ward-path",
+                  "figure6-statue-star-cuts", "figure6-statue-bump-cuts"});
 }
 
 TEST(BenchVsl, MethodsSideBySide) {

@@ -69,8 +69,10 @@ TEST(CommandLine, SecondsOfStagesFitIntoTheTotal) {
         "vpl --gather sglc --sglc-mode paper", "glossy --gather lightslice",
         "glossy --gather lightcuts", "glossy --gather mdlc", "glossy --gather stochastic",
         "vsl --gather illumcut", "richvpl", "vpl --compensate", "photon"}) {
-    ASSERT_EQ(runProgram(std::string(kSmall) + "--spp 2 --num-lights 500 --lights " + method +
-                         " --stats " + (folder / "s.json") + " -o " + (folder / "a.exr"))
+    ASSERT_EQ(runProgram("render study-phong --detail 0.1 --size 24x24 --quiet --spp 2 "
+                         "--num-lights 500 --lights " +
+                         std::string(method) + " --stats " + (folder / "s.json") + " -o " +
+                         (folder / "a.exr"))
                   .exitCode,
               0);
     const auto seconds = nlohmann::json::parse(test::readText(folder / "s.json"))["seconds"];
@@ -231,9 +233,12 @@ TEST(CommandLine, InterruptWritesWhatThereIs) {
   const TemporaryFolder folder;
   for (const auto& [signal, code] : {std::pair{"INT", 130}, std::pair{"TERM", 143}}) {
     const std::string file = folder / (std::string(signal) + ".exr");
-    const std::string command =
-        "timeout -s " + std::string(signal) + " --preserve-status 3 " + LOBELIA_PROGRAM +
-        " render cornell --detail 0.1 --size 64x64 --lights path --spp 10000000 --quiet -o " + file;
+    const std::string command = "timeout -s " + std::string(signal) + " --preserve-status 3 " +
+                                LOBELIA_PROGRAM +
+                                " render cornell --detail 0.1 --size 64x64 --lights path --spp "
+                                "10000000 --threads 1 --quiet "
+                                "-o " +
+                                file;
     const int status = std::system(command.c_str());
     EXPECT_EQ(WEXITSTATUS(status), code);
     const Film film = io::readFilm(file);

@@ -8,6 +8,7 @@ namespace {
 using CutsRender = test::RenderTest;
 
 TEST_F(CutsRender, LargerCutsComeNearerToAllLights) {
+  scene_ = kMicrofacets;
   const std::string base =
       "--lights vsl --size 64x48 --spp 1 --num-lights 6000 --component indirect --seed 2 ";
   const Film all = render(base, "all");

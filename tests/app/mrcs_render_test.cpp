@@ -85,6 +85,7 @@ TEST_F(MrcsRender, PartsOfThePictureAndPassesHaveTheLightOfAll) {
 }
 
 TEST_F(MrcsRender, NearFieldOfSphericalLightsTakesTheFlares) {
+  scene_ = kMicrofacets;
   const std::string base = "--lights vsl --size 48x40 --spp 1 --num-lights 4000 --seed 3 ";
   const Film all = render(base + "--gather all", "all");
   const std::string few = base + "--gather mrcs --columns 200 --rows 300 ";

@@ -149,7 +149,7 @@ TEST(Usage, BadInputIsThree) {
 // What cannot apply is said, and the picture made all the same.
 TEST(Usage, OptionsWithoutEffectAreSaid) {
   const TemporaryFolder folder;
-  const std::string tiny = "render cornell --detail 0.1 --size 8x8 --spp 2 ";
+  const std::string tiny = "render study-phong --detail 0.1 --size 8x8 --spp 2 ";
   const auto warnings = [&](const std::string& options) {
     const ProgramResult r = runProgram(tiny + options + " -o " + (folder / "a.exr"));
     EXPECT_EQ(r.exitCode, 0) << r.err;

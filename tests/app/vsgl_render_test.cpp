@@ -10,9 +10,9 @@ namespace {
 class VsglRender : public test::RenderTest {};
 
 TEST_F(VsglRender, ComesNearerToThePathTracerWithMoreLights) {
-  const std::string base = "--size 48x40 --component indirect --spp 16 ";
+  const std::string base = "--size 32x26 --component indirect --spp 16 ";
   const Film path =
-      render("--size 48x40 --component indirect --lights path --spp 512 --seed 9", "p");
+      render("--size 32x26 --component indirect --lights path --spp 512 --seed 9", "p");
   double before = 1e9;
   for (const int lights : {4, 32, 256}) {
     const Film film =
@@ -33,11 +33,11 @@ TEST_F(VsglRender, ComesNearerToThePathTracerWithMoreLights) {
 }
 
 TEST_F(VsglRender, EveryWayOfClusteringGivesTheLight) {
-  const std::string base = "--size 48x40 --component indirect --max-depth 3 ";
+  const std::string base = "--size 32x26 --component indirect --max-depth 3 ";
   const Film path = render(base + "--lights path --spp 512 --seed 9", "p");
   for (const char* clusters : {"tree", "kmeans", "fis", "fis-original"}) {
     const Film film = render(
-        base + "--lights vsgl --spp 16 --num-lights 256 --vsgl-clusters " + clusters, clusters);
+        base + "--lights vsgl --spp 8 --num-lights 256 --vsgl-clusters " + clusters, clusters);
     const Comparison error = compare(film, path);
     EXPECT_LT(error.l2, 0.45) << clusters;
     EXPECT_NEAR(error.meanRatio, 1, std::string(clusters) == "fis-original" ? 0.3 : 0.2)
@@ -74,6 +74,7 @@ TEST_F(VsglRender, FewShadowRaysHaveTheMeanOfAll) {
 }
 
 TEST_F(VsglRender, ShadowMapsComeNearTheRays) {
+  scene_ = kMicrofacets;
   const std::string base =
       "--size 48x40 --component indirect --spp 4 --lights vsgl --num-lights 256 --passes 1 ";
   const Film rays = render(base, "rays");
@@ -90,6 +91,7 @@ TEST_F(VsglRender, ShadowMapsComeNearTheRays) {
 }
 
 TEST_F(VsglRender, PairsHaveTwoLightsForAnEmitter) {
+  scene_ = kMicrofacets;
   const std::string base = "--size 48x40 --component indirect --max-depth 3 --spp ";
   const Film path = render(base + "512 --lights path", "p");
   const Film pairs =
@@ -106,7 +108,7 @@ TEST_F(VsglRender, PairsHaveTwoLightsForAnEmitter) {
 
 TEST_F(VsglRender, OtherStrategiesGatherTheSame) {
   const std::string base =
-      "--size 48x40 --component indirect --spp 16 --lights vsgl --num-lights 512 --passes 1 ";
+      "--size 32x26 --component indirect --spp 16 --lights vsgl --num-lights 512 --passes 1 ";
   const Film all = render(base, "all");
   for (const char* gather :
        {"sglc --sglc-mode unbiased --cut-size 256", "sglc --sglc-mode shared --cut-size 256",

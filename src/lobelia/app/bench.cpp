@@ -33,7 +33,7 @@ constexpr Study kStudies[] = {
     {"vsgl", "virtual spherical Gaussian lights: sampling, time and cuts", benchVsgl, vsglFigures},
     {"sglc", "spherical-Gaussian lightcuts: table 2 and figures 4 to 9 of their paper", benchSglc,
      sglcFigures},
-    {"cuts", "visibility cuts: figures 9 and 10 of their paper", benchCuts, cutsFigures},
+    {"cuts", "visibility cuts: figures 5, 6 and 8 to 10 of their paper", benchCuts, cutsFigures},
 };
 
 std::vector<std::string> studyNames() {
@@ -148,7 +148,8 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
   c.add_option("--camera", o.camera, "Camera by name or index (from 0)")->type_name("NAME");
   c.add_option("--size", o.size, "WxH in pixels")->type_name("WxH");
   c.add_option("--pixels", o.pixels,
-               "clamp, convergence, vsl, vsgl, sglc: pixels compared, spread over the image")
+               "clamp, convergence, vsl, vsgl, sglc: pixels compared, spread over the image; cuts: "
+               "vertices of figures 5 and 8")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 32));
   c.add_option("--max-depth", o.maxDepth, "As for render; default: the scene's, else unlimited")

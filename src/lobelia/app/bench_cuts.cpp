@@ -4,13 +4,28 @@
 
 #include <bit>
 
+#include "lobelia/app/bench_cuts_vertices.h"
 #include "lobelia/app/bench_studies.h"
+#include "lobelia/app/load_scene.h"
 
 namespace lobelia::app {
 namespace {
 
 const std::vector<std::string> kScenes = {"statue", "machine", "plants"};
 constexpr int kDirectLight = 2;  // --max-depth
+constexpr size_t kVertices = 1024;
+
+// Figures 5 and 8, which look at the same vertices.
+void compareTrees(const std::string& name, bool figure5, bool figure8, const CutsStudy& study) {
+  const BenchOptions options = study.optionsOf(name);
+  const Scene scene = loadScene(options.scene, study.context);
+  const Tracer tracer(scene, study.context);
+  study.context.seed = options.seed;
+  const size_t count = options.pixels > 0 ? options.pixels : kVertices;
+  const StudyVertices vertices(tracer, count, study.context);
+  cutsClusters(name, tracer, vertices, figure5, figure8, study);
+  if (figure8) cutsWavelets(name, vertices, study);
+}
 
 }  // namespace
 
@@ -42,7 +57,7 @@ Film emptyFrame(const Camera& camera) {
 }
 
 const std::vector<std::string>& cutsFigures() {
-  static const std::vector<std::string> figures{"9", "10", "sigma"};
+  static const std::vector<std::string> figures{"5", "6", "8", "9", "10", "sigma"};
   return figures;
 }
 
@@ -52,6 +67,10 @@ std::vector<BenchTable> benchCuts(const BenchOptions& options, Context& context)
   const CutsStudy study{options, report, context};
   for (const std::string& scene : options.scenes.empty() ? kScenes : options.scenes) {
     try {
+      const bool clusters = figures.contains("5"), wavelets = figures.contains("8");
+      if ((clusters || wavelets) && !context.cancelled())
+        compareTrees(scene, clusters, wavelets, study);
+      if (figures.contains("6") && !context.cancelled()) cutsMaterials(scene, study);
       if (figures.contains("9") && !context.cancelled()) cutsData(scene, study);
       const bool lightCuts = figures.contains("10"), sigmas = figures.contains("sigma");
       if ((lightCuts || sigmas) && !context.cancelled()) cutsError(scene, lightCuts, sigmas, study);

@@ -1,8 +1,13 @@
 // What the files of the study `cuts` share: visibility cuts [P004] on any scenes lit from infinity.
 //
-//  bench_cuts.cpp        options, scenes, figures: the study itself
-//  bench_cuts_data.cpp   figure 9: size and time of the data, frames per second
-//  bench_cuts_error.cpp  figure 10: error of frames by the size of the light cut; and by sigma
+//  bench_cuts.cpp           options, scenes, figures: the study itself
+//  bench_cuts_vertices.h    what some vertices see of any directions, for figures 5 and 8
+//  bench_cuts_clusters.cpp  figures 5 and 8 (b): clusters of directions by three metrics
+//  bench_cuts_wavelets.cpp  figure 8 (a): terms of cuts and of Haar wavelets (haar.h, study_tree.h)
+//  bench_cuts_materials.cpp figure 6: an object in many materials (bench_cuts_designs.h)
+//  bench_cuts_frames.h      frames for figures 6 and 10
+//  bench_cuts_data.cpp      figure 9: size and time of the data, frames per second
+//  bench_cuts_error.cpp     figure 10: error of frames by the size of the light cut; and by sigma
 #pragma once
 
 #include "lobelia/app/bench_figures.h"
@@ -27,6 +32,11 @@ inline constexpr size_t kPaperLightCuts[] = {128, 256, 512};
 
 Film emptyFrame(const Camera& camera);
 
+class StudyVertices;
+void cutsClusters(const std::string& scene, const Tracer& tracer, const StudyVertices& vertices,
+                  bool figure5, bool figure8, const CutsStudy& study);
+void cutsWavelets(const std::string& scene, const StudyVertices& vertices, const CutsStudy& study);
+void cutsMaterials(const std::string& scene, const CutsStudy& study);
 void cutsData(const std::string& scene, const CutsStudy& study);
 void cutsError(const std::string& scene, bool lightCuts, bool sigmas, const CutsStudy& study);
 

@@ -2,7 +2,7 @@
 // the light; the same by the bound of the visibility cuts.
 #include <fmt/format.h>
 
-#include "lobelia/app/bench_cuts.h"
+#include "lobelia/app/bench_cuts_frames.h"
 #include "lobelia/film/metrics.h"
 
 namespace lobelia::app {
@@ -12,32 +12,6 @@ constexpr uint64_t kReferenceSeed = 42;
 constexpr int kReferenceSamples = 1024, kFrameSamples = 16;
 constexpr float kSigmas[] = {8, 4, 2, 1};
 constexpr size_t kLightCuts[] = {64, 128, 256, 512, 1024, 32768};
-
-// 1 where the middle of a pixel and those of its neighbours see a surface: edges against the
-// background are no error of the method.
-Film objectsOf(const Tracer& tracer, const Camera& camera) {
-  Film mask = emptyFrame(camera);
-  const int width = camera.width, height = camera.height;
-  std::vector<uint8_t> seen(static_cast<size_t>(width) * static_cast<size_t>(height));
-  const auto at = [&](int x, int y) -> uint8_t& {
-    return seen[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
-  };
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const Vec2f place{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-      at(x, y) = tracer.intersect(generateRay(camera, place, {0.5f, 0.5f})) ? 1 : 0;
-    }
-  std::vector<float>& values = mask.layers.at("").values;
-  for (int y = 1; y + 1 < height; ++y)
-    for (int x = 1; x + 1 < width; ++x) {
-      bool inside = true;
-      for (int k = 0; k < 9; ++k) inside = inside && at(x + k % 3 - 1, y + k / 3 - 1) != 0;
-      const size_t pixel =
-          static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
-      for (size_t c = 0; c < 3; ++c) values[3 * pixel + c] = inside ? 1.f : 0.f;
-    }
-  return mask;
-}
 
 class ErrorStudy {
  public:
@@ -70,14 +44,7 @@ class ErrorStudy {
     return relight::precomputeVisibility(scene_.tracer(), settings_, study_.context);
   }
   Film frame(relight::FrameRenderer& renderer, size_t nodes, bool refined) {
-    Film film = emptyFrame(scene_.camera());
-    const relight::FrameLight light = renderer.light(0, {.nodeCount = nodes}, study_.context);
-    renderer.render(light, scene_.camera(),
-                    {.spp = kFrameSamples,
-                     .refined = refined,
-                     .hideEmitters = scene_.tracer().scene().hideEmitters},
-                    film, study_.context);
-    return film;
+    return cutsFrame(renderer, scene_, {nodes, refined, kFrameSamples}, study_.context);
   }
   Comparison errorOf(const Film& film) const {
     return compare(film, path_.first, &path_.second, &objects_);

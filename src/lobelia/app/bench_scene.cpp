@@ -38,6 +38,13 @@ Camera scaledCamera(Camera camera, int width) {
   return camera;
 }
 
+Scene preparedScene(const SceneOptions& options, const BenchScene::Defaults& defaults,
+                    Context& context) {
+  Scene scene = loadScene(options, context);
+  if (defaults.prepare) defaults.prepare(scene);
+  return scene;
+}
+
 }  // namespace
 
 Estimate estimate(const std::vector<double>& independent) {
@@ -68,7 +75,7 @@ std::string clampText(double value) {
 BenchScene::BenchScene(const BenchOptions& options, const Defaults& defaults, Context& context)
     : options_(renderOptions(options, defaults)),
       context_(context),
-      scene_(loadScene(options_.scene, context)),
+      scene_(preparedScene(options_.scene, defaults, context)),
       camera_(chooseCamera(scene_, options_)),
       maxDepth_(options_.maxDepth > 0 ? options_.maxDepth : scene_.maxDepth),
       tracer_(scene_, context),

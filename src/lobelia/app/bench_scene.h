@@ -29,6 +29,8 @@ class BenchScene {
     uint64_t pixels = 0;  // 0: all
     int width = 0;        // 0: the scene's
     std::string component = "indirect";
+    // Changes the scene before anything is made of it.
+    std::function<void(Scene&)> prepare = nullptr;
   };
   BenchScene(const BenchOptions& options, const Defaults& defaults, Context& context);
 
@@ -68,6 +70,11 @@ class BenchScene {
   const Camera& camera() const { return camera_; }
   // Another view with a film of the same size: the same pixels are compared.
   void setCamera(const Camera& camera) { camera_ = camera; }
+  // Another material takes the place of one, for pictures from then on: one that lets neither more
+  // nor less light through.
+  void setMaterial(MaterialHandle place, const Material& material) {
+    scene_.materials[place.index] = material;
+  }
   const Tracer& tracer() const { return tracer_; }
   const EmitterSampler& emitters() const { return emitters_; }
   int maxDepth() const { return maxDepth_; }

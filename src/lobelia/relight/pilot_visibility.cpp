@@ -38,13 +38,12 @@ std::vector<uint8_t> pilotVisibility(const Tracer& tracer, const LightSamples& s
                                      const VertexFaces& faces, std::span<const uint32_t> order,
                                      size_t clusterCount, Context& context) {
   const size_t count = samples.count();
-  const int levels = std::countr_zero(count);
   const std::vector<size_t> begin = clusterBegins(order.size(), std::countr_zero(clusterCount));
   std::vector<uint8_t> columns(clusterCount * count, 0);
   parallelRanges(clusterCount, 8, [&](size_t first, size_t last) {
     if (context.cancelled()) return;
     VertexTracer rays(tracer, samples);
-    LeafBits bits(levels);
+    LeafBits bits = leafBits(samples);
     for (size_t c = first; c < last; ++c) {
       const size_t size = begin[c + 1] - begin[c];
       for (uint8_t m = 0; m < kPilotMembers && size > 0; ++m) {

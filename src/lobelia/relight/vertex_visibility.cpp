@@ -30,6 +30,13 @@ uint64_t packed(const uint8_t (&flags)[64]) {
 
 }  // namespace
 
+LeafBits leafBits(const LightSamples& samples) {
+  const size_t count = samples.count();
+  LeafBits bits(std::has_single_bit(count) ? std::countr_zero(count) : 0);
+  bits.visible.assign((count + 63) / 64, 0), bits.matters.assign((count + 63) / 64, 0);
+  return bits;
+}
+
 VertexTracer::VertexTracer(const Tracer& tracer, const LightSamples& samples,
                            const SampleNeighbours* neighbours)
     : tracer_(tracer),

@@ -23,6 +23,9 @@
 
 namespace lobelia::relight {
 
+// For samples of any number; of as many levels as there are only where that is a power of two.
+LeafBits leafBits(const LightSamples& samples);
+
 // For one thread; keeps its memory from vertex to vertex.
 class VertexTracer {
  public:
