@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 
+#include "lobelia/app/cut_frames.h"
 #include "lobelia/app/edited_scene.h"
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/load_scene.h"
@@ -17,7 +17,6 @@
 #include "lobelia/app/view_script.h"
 #include "lobelia/app/view_statistics.h"
 #include "lobelia/base/parallel.h"
-#include "lobelia/relight/frame.h"
 
 namespace lobelia::app {
 namespace {
@@ -37,37 +36,13 @@ void requireView(const ViewOptions& options) {
     throw UsageError("--rotate-step: say for how many frames with --frames N");
   std::vector<std::string> written = render.outputs;
   written.push_back(render.stats);
-  requireNoInput(written, {options.data, options.script, render.scene.scene, render.scene.design,
-                           render.scene.environment});
+  std::vector<std::string> read = options.data;
+  for (const std::string& file :
+       {options.script, render.scene.scene, render.scene.design, render.scene.environment})
+    read.push_back(file);
+  requireNoInput(written, read);
   requirePicture(options.render);
   requireFrames(options.render);
-}
-
-bool lightsFromNearby(EmitterType type) {
-  return type == EmitterType::point || type == EmitterType::spot || type == EmitterType::area ||
-         type == EmitterType::projector || type == EmitterType::goniometric;
-}
-
-void warnOfMissing(const Scene& scene, Context& context) {
-  const auto near = std::count_if(scene.emitters.begin(), scene.emitters.end(),
-                                  [](const Emitter& e) { return lightsFromNearby(e.type); });
-  const auto clear =
-      std::count_if(scene.instances.begin(), scene.instances.end(),
-                    [&](const Instance& i) { return relight::transmits(scene, i.material); });
-  if (near == std::ssize(scene.emitters))
-    context.warning("the scene has no light from infinity; add some with --environment or --sky");
-  else if (near > 0)
-    context.warning(
-        fmt::format("{} of {} emitters are not at infinity: they are seen but light nothing", near,
-                    scene.emitters.size()));
-  if (clear > 0)
-    context.warning(
-        fmt::format("{} surfaces transmit light, of which only reflections are shown", clear));
-}
-
-relight::VisibilityData loadData(const std::string& file, const Scene& scene, Context& context) {
-  const StageTimer timer(context, "data");
-  return relight::load(file, scene);
 }
 
 // What the frames share.
@@ -82,11 +57,12 @@ class Frames {
         scene_(edited_.scene()),
         geometry_(relight::geometryHash(scene_)),
         plan_(planFrames(scene_, options.render, true)),
-        data_(loadData(options.data, scene_, context)),
+        data_(loadCutData(options.data, scene_, context)),
         tracer_(scene_, context),
+        frames_(tracer_, data_),
         rotation_(options.rotate) {
-    warnOfMissing(scene_, context_);
-    prepare();
+    warnOfMissing(data_, scene_, context_);
+    frames_.relight(context_);
   }
 
   void render() {
@@ -110,18 +86,6 @@ class Frames {
   }
 
  private:
-  // For the emitters that there are now.
-  void prepare() {
-    const StageTimer timer(context_, "prepare");
-    auto emitters = std::make_unique<EmitterSampler>(scene_, tracer_.bounds());
-    if (renderer_) {
-      renderer_->relight(*emitters);
-    } else {
-      renderer_.emplace(tracer_, *emitters, data_);
-    }
-    emitters_ = std::move(emitters);
-  }
-
   void play() {
     int number = 0;
     for (const ScriptStep& step : script_) {
@@ -158,14 +122,14 @@ class Frames {
     const io::DesignParts parts = edited_.change(step, context_);
     if (parts.cameras) view_.reset();
     if (parts.materials) {
-      relight::requireKnownSides(data_, scene_, step.where);
+      requireKnownSides(data_, scene_, step.where);
       if (relight::geometryHash(scene_) != geometry_)
         throw InputError(step.where,
                          "this changes which parts of surfaces are masked out, which "
                          "the visibility has to know; make a scene with it and "
                          "precompute that");
     }
-    prepare();  // emitters' images may have moved, whatever the edit is of
+    frames_.relight(context_);  // emitters' images may have moved, whatever the edit is of
   }
 
   void renderFrame(const Frame& frame) {
@@ -173,13 +137,12 @@ class Frames {
     Film film = makeFilm(frame.camera, frame.options);
     film.layers.erase("direct");
     film.layers.erase("indirect");
-    const relight::FrameLight light =
-        renderer_->light(rotation_, {.nodeCount = options_.lightCut}, context_);
-    renderer_->render(light, frame.camera,
-                      {.spp = std::max(options_.render.spp, 1),
-                       .refined = !options_.plainLobes,
-                       .hideEmitters = scene_.hideEmitters},
-                      film, context_);
+    frames_.render({.spp = std::max(options_.render.spp, 1),
+                    .lightCut = options_.lightCut,
+                    .rotation = rotation_,
+                    .plainLobes = options_.plainLobes,
+                    .areaPlaces = options_.areaPlaces},
+                   frame.camera, film, context_);
     const double seconds = static_cast<double>(nanosecondsNow() - start) * 1e-9;
     setMetadata(film, scene_, frame.options, commandLine_, seconds);
     if (options_.render.frames > 0 || frameCount(script_) > 1)
@@ -195,12 +158,11 @@ class Frames {
   const Scene& scene_;
   const uint64_t geometry_;
   const std::vector<Frame> plan_;
-  const relight::VisibilityData data_;
+  const CutData data_;
   const Tracer tracer_;
-  double rotation_;                // degrees
-  std::optional<Transform> view_;  // that a script gave the camera
-  std::unique_ptr<EmitterSampler> emitters_;
-  std::optional<relight::FrameRenderer> renderer_;
+  CutFrames frames_;
+  double rotation_;                 // degrees
+  std::optional<Transform> view_;   // that a script gave the camera
   std::optional<ToneCurve> curve_;  // of all PNG files
 };
 
@@ -208,8 +170,12 @@ class Frames {
 
 void addViewOptions(CLI::App& c, ViewOptions& o) {
   addSceneOptions(c, o.render.scene);
-  c.add_option("--data", o.data, "Visibility of the scene, by `lobelia precompute`")
+  c.add_option(
+       "--data", o.data,
+       "Visibility of the scene, by `lobelia precompute`; twice: of light from infinity and "
+       "of local lights")
       ->type_name("FILE")
+      ->allow_extra_args(false)
       ->required();
   c.add_option("--script", o.script, "Camera moves, edits and frames, one a line (docs/manual.md)")
       ->type_name("FILE");
@@ -226,6 +192,11 @@ void addViewOptions(CLI::App& c, ViewOptions& o) {
   c.add_option("--light-cut", o.lightCut, "Nodes of the light's cut, at most")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 15))
+      ->capture_default_str();
+  c.add_option("--area-places", o.areaPlaces,
+               "Places of each area emitter from which it lights a pixel")
+      ->type_name("N")
+      ->check(integerRange(1, 1024))
       ->capture_default_str();
   c.add_option("--rotate", o.rotate,
                "Turn the light from infinity about the environment's vertical axis")

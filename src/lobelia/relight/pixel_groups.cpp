@@ -1,0 +1,80 @@
+// Pixels of a tile in groups of 64, which are neighbours, as the tile's light cut asks for them.
+#include "lobelia/relight/pixel_groups.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lobelia/bsdf/albedo.h"
+#include "lobelia/bsdf/lobe_kind.h"
+
+namespace lobelia::relight {
+namespace {
+
+constexpr size_t kGroup = 64;
+constexpr float kFlat = 0.99f;     // cosine between a flat group's normals and their mean
+constexpr float kBroadest = 0.5f;  // roughness of lobes that need no more than diffuse ones
+
+struct MirrorLobe {
+  Vec3f axis;
+  float alpha = 1;
+  float peak = 0;
+};
+
+float alphaOf(const Lobe& lobe) { return roughness(lobe); }
+
+// The lobe with the largest peak, if it is glossy.
+std::optional<MirrorLobe> narrowestLobe(const LitPixel& pixel) {
+  MirrorLobe narrowest;
+  for (int l = 0; l < pixel.bsdf.lobeCount; ++l) {
+    const Lobe& lobe = pixel.bsdf.lobes[l];
+    const float alpha = alphaOf(lobe);
+    if (lobe.sharp || isTransmission(lobe.type) || isDiffuse(lobe.type) || alpha > kBroadest)
+      continue;
+    const Vec3f n = pixel.bsdf.frameOf(lobe).n;
+    const float cosine = dot(n, pixel.wo);
+    const float peak = luminance(lobeAlbedo(lobe, cosine)) / (4 * alpha * alpha);
+    if (peak > narrowest.peak) narrowest = {n * (2 * cosine) - pixel.wo, alpha, peak};
+  }
+  if (narrowest.peak > 0) return narrowest;
+  return std::nullopt;
+}
+
+PixelGroup groupOf(std::span<const LitPixel> pixels) {
+  PixelGroup group;
+  Vec3f normals{}, axes{};
+  MirrorLobe lobes[kGroup];
+  size_t glossy = 0;
+  float alpha = 1;
+  for (const LitPixel& pixel : pixels) {
+    group.box.add(pixel.at.p);
+    normals += pixel.normal;
+    const std::optional<MirrorLobe> lobe = narrowestLobe(pixel);
+    if (!lobe) continue;
+    lobes[glossy++] = *lobe;
+    axes += lobe->axis;
+    alpha = std::min(alpha, lobe->alpha);
+    group.peak = std::max(group.peak, lobe->peak);
+  }
+  if (lengthSquared(normals) > 1e-12f) {
+    group.normal = normalize(normals);
+    group.flat = std::all_of(pixels.begin(), pixels.end(), [&](const LitPixel& pixel) {
+      return dot(pixel.normal, group.normal) >= kFlat;
+    });
+  }
+  if (glossy == 0) return group;
+  group.axis = lengthSquared(axes) > 1e-12f ? normalize(axes) : lobes[0].axis;
+  group.width = 2 * alpha;
+  for (size_t i = 0; i < glossy; ++i)
+    group.chord = std::max(group.chord, length(lobes[i].axis - group.axis) + 3 * lobes[i].alpha);
+  return group;
+}
+
+}  // namespace
+
+void makePixelGroups(std::span<const LitPixel> pixels, std::vector<PixelGroup>* groups) {
+  groups->clear();
+  for (size_t first = 0; first < pixels.size(); first += kGroup)
+    groups->push_back(groupOf(pixels.subspan(first, std::min(kGroup, pixels.size() - first))));
+}
+
+}  // namespace lobelia::relight

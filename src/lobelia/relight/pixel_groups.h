@@ -1,0 +1,15 @@
+// A tile's pixels in groups of neighbours, for the choice of its light cut.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lobelia/relight/lit_pixel.h"
+#include "lobelia/relight/tile_cut.h"
+
+namespace lobelia::relight {
+
+// pixels: in an order in which those in a row are neighbours.
+void makePixelGroups(std::span<const LitPixel> pixels, std::vector<PixelGroup>* groups);
+
+}  // namespace lobelia::relight
