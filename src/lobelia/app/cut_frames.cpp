@@ -89,7 +89,8 @@ void CutFrames::relight(Context& context) {
 void CutFrames::render(const CutSettings& settings, const Camera& camera, Film& film,
                        Context& context) {
   const bool hide = tracer_.scene().hideEmitters;
-  if (distant_) {
+  const bool direct = settings.component != "indirect", bounced = settings.component != "direct";
+  if (distant_ && direct) {
     const relight::FrameLight light =
         distant_->light(settings.rotation, {.nodeCount = settings.lightCut}, context);
     distant_->render(light, camera,
@@ -100,8 +101,10 @@ void CutFrames::render(const CutSettings& settings, const Camera& camera, Film& 
   const relight::LocalSettings local{.spp = settings.spp,
                                      .nodeCount = settings.lightCut,
                                      .areaPlaces = settings.areaPlaces,
-                                     .hideEmitters = hide,
-                                     .add = distant_.has_value()};
+                                     .direct = direct,
+                                     .bounced = bounced,
+                                     .hideEmitters = hide || !direct,
+                                     .add = distant_.has_value() && direct};
   local_->render(local_->light(local, context), camera, local, film, context);
 }
 

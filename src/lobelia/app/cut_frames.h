@@ -31,6 +31,7 @@ struct CutSettings {
   double rotation = 0;      // of the light from infinity, degrees
   bool plainLobes = false;  // as the paper has it
   int areaPlaces = 4;       // of each area emitter, for shadow rays
+  std::string component = "all";  // or "direct", "indirect"; light from infinity is direct
 };
 
 class CutFrames {

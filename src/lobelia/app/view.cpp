@@ -141,7 +141,8 @@ class Frames {
                     .lightCut = options_.lightCut,
                     .rotation = rotation_,
                     .plainLobes = options_.plainLobes,
-                    .areaPlaces = options_.areaPlaces},
+                    .areaPlaces = options_.areaPlaces,
+                    .component = options_.render.component},
                    frame.camera, film, context_);
     const double seconds = static_cast<double>(nanosecondsNow() - start) * 1e-9;
     setMetadata(film, scene_, frame.options, commandLine_, seconds);
@@ -197,6 +198,11 @@ void addViewOptions(CLI::App& c, ViewOptions& o) {
                "Places of each area emitter from which it lights a pixel")
       ->type_name("N")
       ->check(integerRange(1, 1024))
+      ->capture_default_str();
+  c.add_option("--component", o.render.component,
+               "Which light of data of local lights: all, direct or indirect")
+      ->type_name("WHICH")
+      ->check(CLI::IsMember({"all", "direct", "indirect"}))
       ->capture_default_str();
   c.add_option("--rotate", o.rotate,
                "Turn the light from infinity about the environment's vertical axis")

@@ -99,7 +99,7 @@ void LocalRenderer::render(const SurfaceLight& light, const Camera& camera,
   const int64_t start = nanosecondsNow();
   const LocalInput input{impl_->tracer, *impl_->emitters, *impl_->sources, impl_->data,
                          light,         camera,           settings,        context.seed};
-  const std::vector<TileArea> areas = tileAreas(film);
+  const std::vector<TileArea> areas = tileAreas(film, LocalTile::kSize);
   LocalCounts counts;
   std::mutex mutex;
   parallelFor(areas.size(), 1, [&](size_t i) {

@@ -12,13 +12,18 @@
 #if HWY_ONCE
 namespace lobelia {
 HWY_EXPORT(gatherNearLight);
+HWY_EXPORT(sumWidenedLobe);
 }  // namespace lobelia
 
 namespace lobelia::relight {
 
 void gatherNearLight(const NearLights& lights, size_t chunkCount, Vec3f p, Vec3f normal,
-                     DirectedLight* out) {
+                     NearLight* out) {
   HWY_DYNAMIC_DISPATCH(lobelia::gatherNearLight)(lights, chunkCount, p, normal, out);
+}
+
+Rgb sumWidenedLobe(const LobeQuery& query, const NearLight& light, uint64_t* evaluations) {
+  return HWY_DYNAMIC_DISPATCH(lobelia::sumWidenedLobe)(query, light, evaluations);
 }
 
 }  // namespace lobelia::relight

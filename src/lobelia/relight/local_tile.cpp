@@ -13,6 +13,10 @@ namespace {
 constexpr size_t kBlock = ShadowPacket::kSize;
 constexpr uint64_t kStream = 0x6c6f63616cull;
 
+constexpr float kBroad = 0.5f;  // roughness of lobes that nodes of a cut are narrower than
+
+bool needsWidening(const Lobe& lobe) { return !isDiffuse(lobe.type) && roughness(lobe) < kBroad; }
+
 // Reads the clock and adds what has passed.
 class Clock {
  public:
@@ -101,6 +105,8 @@ void LocalTile::addBounced(const LocalInput& input, LitPixel& pixel) {
   const PixelPlace& place = pixels_[pixel.pixel].place;
   NearLights lights{{cut.x.data(), cut.y.data(), cut.z.data()},
                     {cut_.nx.data(), cut_.ny.data(), cut_.nz.data()},
+                    cut_.variance.data(),
+                    cut_.extent2.data(),
                     {},
                     {},
                     input.light.sampleArea * (1 / kPi)};
@@ -114,7 +120,9 @@ void LocalTile::addBounced(const LocalInput& input, LitPixel& pixel) {
     const LobeQuery query{&lobe, &pixel.bsdf.frameOf(lobe), pixel.bsdf.baseNormal, pixel.wo};
     const bool seen = dot(query.frame->n, pixel.wo) > 0 || lobe.twoSided || lobe.interface;
     if (lobe.sharp || isTransmission(lobe.type) || !seen) continue;
-    pixel.sum += sumLobe(query, light_, light_.lit.data(), &counts_.evaluations);
+    pixel.sum += needsWidening(lobe)
+                     ? sumWidenedLobe(query, light_, &counts_.evaluations)
+                     : sumLobe(query, light_, light_.lit.data(), &counts_.evaluations);
   }
 }
 
@@ -122,15 +130,17 @@ LocalCounts LocalTile::render(const LocalInput& input, const TileArea& area, Fil
   const FlushDenormals flush;
   counts_ = {};
   vertices_.mergedVertices = vertices_.mergedNodes = 0;
-  std::vector<Rgb> sums(kTileSize * kTileSize);
+  sums_.assign(kTileSize * kTileSize, Rgb{});
   for (int sample = 0; sample < input.settings.spp; ++sample) {
     Clock clock;
     makeSurfaces(input, area, film, sample);
     clock.lap(&counts_.bufferNs);
-    makePixelGroups(surfaces_, &groups_);
-    selector_.select(input.light, groups_, input.settings.nodeCount, &cut_);
-    vertices_.begin(input.light.sums, cut_.cut, input.data.cuts, input.settings.cacheBytes);
-    light_.reserve(cut_.cut.padded() / kChunk);
+    if (!surfaces_.empty()) {
+      makePixelGroups(surfaces_, &groups_);
+      selector_.select(input.light, groups_, input.settings.nodeCount, &cut_);
+      vertices_.begin(input.light.sums, cut_.cut, input.data.cuts, input.settings.cacheBytes);
+      light_.reserve(cut_.cut.padded() / kChunk);
+    }
     clock.lap(&counts_.cutNs);
     for (size_t first = 0, end; first < surfaces_.size(); first = end) {
       end = input.settings.bounced ? placeVertices(input, first) : surfaces_.size();
@@ -148,7 +158,7 @@ LocalCounts LocalTile::render(const LocalInput& input, const TileArea& area, Fil
     }
     counts_.objectPixels += surfaces_.size();
     counts_.cutNodes += surfaces_.size() * cut_.cut.count;
-    finish(input, &sums);
+    finish(input);
   }
   counts_.vertices = vertices_.mergedVertices, counts_.mergedNodes = vertices_.mergedNodes;
   if (counts_.firstBad) {  // it was the tile's
@@ -156,14 +166,14 @@ LocalCounts LocalTile::render(const LocalInput& input, const TileArea& area, Fil
     counts_.firstBad = static_cast<uint32_t>((area.y0 + pixel / kTileSize) * film.width + area.x0 +
                                              pixel % kTileSize);
   }
-  writeTile(sums, 1 / static_cast<float>(input.settings.spp), input.settings.add, area, &film);
+  writeTile(sums_, 1 / static_cast<float>(input.settings.spp), input.settings.add, area, &film);
   return counts_;
 }
 
-void LocalTile::finish(const LocalInput& input, std::vector<Rgb>* sums) {
+void LocalTile::finish(const LocalInput& input) {
   const auto add = [&](const TilePixel& pixel, Rgb value) {
     if (isFinite(value)) {
-      (*sums)[pixel.index] += value * pixel.weight;
+      sums_[pixel.index] += value * pixel.weight;
     } else {
       ++counts_.nonFinite;
       counts_.firstBad = std::min(counts_.firstBad.value_or(pixel.index), pixel.index);

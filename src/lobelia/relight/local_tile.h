@@ -33,6 +33,9 @@ struct LocalCounts {
 
 class LocalTile {
  public:
+  // Pixels along an edge: as many as GroupLanes holds.
+  static constexpr int kSize = 16;
+  static_assert(kSize * kSize <= GroupLanes::kMost * kGroupPixels);
   LocalCounts render(const LocalInput& input, const TileArea& area, Film& film);
 
  private:
@@ -42,15 +45,16 @@ class LocalTile {
   void addDirect(const LocalInput& input, std::span<LitPixel> pixels);
   void addBounced(const LocalInput& input, LitPixel& pixel);
   // Adds a sample of all pixels, emission and background included, to the tile's.
-  void finish(const LocalInput& input, std::vector<Rgb>* sums);
+  void finish(const LocalInput& input);
 
   std::vector<TilePixel> pixels_;
   std::vector<LitPixel> surfaces_;  // of the pixels that meet one
   std::vector<PixelGroup> groups_;
+  std::vector<Rgb> sums_;  // of the samples, by pixel
   TileCutSelector selector_;
   TileCut cut_;
   TileVertices vertices_;
-  DirectedLight light_;
+  NearLight light_;
   LocalCounts counts_;
 };
 

@@ -1,8 +1,8 @@
-// Pixels of a tile in groups of 64, which are neighbours, as the tile's light cut asks for them.
 #include "lobelia/relight/pixel_groups.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lobelia/bsdf/albedo.h"
 #include "lobelia/bsdf/lobe_kind.h"
@@ -10,7 +10,6 @@
 namespace lobelia::relight {
 namespace {
 
-constexpr size_t kGroup = 64;
 constexpr float kFlat = 0.99f;     // cosine between a flat group's normals and their mean
 constexpr float kBroadest = 0.5f;  // roughness of lobes that need no more than diffuse ones
 
@@ -20,14 +19,12 @@ struct MirrorLobe {
   float peak = 0;
 };
 
-float alphaOf(const Lobe& lobe) { return roughness(lobe); }
-
 // The lobe with the largest peak, if it is glossy.
 std::optional<MirrorLobe> narrowestLobe(const LitPixel& pixel) {
   MirrorLobe narrowest;
   for (int l = 0; l < pixel.bsdf.lobeCount; ++l) {
     const Lobe& lobe = pixel.bsdf.lobes[l];
-    const float alpha = alphaOf(lobe);
+    const float alpha = roughness(lobe);
     if (lobe.sharp || isTransmission(lobe.type) || isDiffuse(lobe.type) || alpha > kBroadest)
       continue;
     const Vec3f n = pixel.bsdf.frameOf(lobe).n;
@@ -42,7 +39,7 @@ std::optional<MirrorLobe> narrowestLobe(const LitPixel& pixel) {
 PixelGroup groupOf(std::span<const LitPixel> pixels) {
   PixelGroup group;
   Vec3f normals{}, axes{};
-  MirrorLobe lobes[kGroup];
+  MirrorLobe lobes[kGroupPixels];
   size_t glossy = 0;
   float alpha = 1;
   for (const LitPixel& pixel : pixels) {
@@ -73,8 +70,9 @@ PixelGroup groupOf(std::span<const LitPixel> pixels) {
 
 void makePixelGroups(std::span<const LitPixel> pixels, std::vector<PixelGroup>* groups) {
   groups->clear();
-  for (size_t first = 0; first < pixels.size(); first += kGroup)
-    groups->push_back(groupOf(pixels.subspan(first, std::min(kGroup, pixels.size() - first))));
+  for (size_t first = 0; first < pixels.size(); first += kGroupPixels)
+    groups->push_back(
+        groupOf(pixels.subspan(first, std::min(kGroupPixels, pixels.size() - first))));
 }
 
 }  // namespace lobelia::relight

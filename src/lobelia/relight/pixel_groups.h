@@ -4,10 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "lobelia/relight/group_error.h"
 #include "lobelia/relight/lit_pixel.h"
-#include "lobelia/relight/tile_cut.h"
 
 namespace lobelia::relight {
+
+inline constexpr size_t kGroupPixels = 16;
 
 // pixels: in an order in which those in a row are neighbours.
 void makePixelGroups(std::span<const LitPixel> pixels, std::vector<PixelGroup>* groups);

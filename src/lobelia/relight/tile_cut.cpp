@@ -1,55 +1,33 @@
 #include "lobelia/relight/tile_cut.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace lobelia::relight {
 namespace {
 
-Vec3f absolute(Vec3f v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
+NodeShape shapeOf(const SurfaceLight& light, uint32_t node) {
+  const Vec3f mean = light.normal(node);
+  const float agree = length(mean);
+  return {light.place(node), agree > 1e-6f ? mean * (1 / agree) : Vec3f(),
+          std::sqrt(2.f) * light.size[node], std::sqrt(std::max(1 - agree * agree, 0.f))};
+}
 
-// Of a node of light as one group of pixels sees it.
-float groupError(const PixelGroup& group, Vec3f place, Vec3f normal, float size, float area) {
-  const Vec3f centre = group.box.centre(), half = group.box.extent() * 0.5f, to = place - centre;
-  const Vec3f beyond = max(absolute(to) - half, Vec3f(0.f));
-  const float d2 = lengthSquared(beyond) + area, d = std::sqrt(d2);
-  const float radius = std::sqrt(2.f) * size;  // of an even disc with this deviation
-  if (group.flat && dot(group.normal, to) + dot(absolute(group.normal), half) + radius < 0)
-    return 0;
-  const float agree = length(normal), spread = 1 - agree;
-  const float facing = -dot(normal, to) + dot(absolute(normal), half);
-  const float cosine = std::min(facing / d + (spread + radius / d), 1.f);
-  if (!(cosine > 0)) return 0;
-  const float angle = std::min(radius / d, 1.f);
-  float error = cosine * (angle + spread);
-  if (group.peak > 0) {
-    const float off = length(to * (1 / std::max(length(to), 1e-20f)) - group.axis);
-    if (off < group.chord + angle + length(half) / d)
-      error += group.peak * cosine * std::min(angle / group.width, 1.f);
-  }
-  return error / d2;
+float errorOf(const SurfaceLight& light, const GroupLanes& groups, uint32_t node) {
+  const float power = std::abs(luminance(light.sums.power(node)));
+  if (!(power > 0)) return 0;
+  return power * largestError(groups, shapeOf(light, node), light.sampleArea * (1 / kPi));
 }
 
 }  // namespace
 
-float TileCutSelector::errorOf(const SurfaceLight& light, uint32_t node) const {
-  const float power = std::abs(luminance(light.sums.power(node)));
-  if (!(power > 0)) return 0;
-  float most = 0;
-  for (const PixelGroup& group : groups_)
-    most = std::max(most, groupError(group, light.place(node), light.normal(node), light.size[node],
-                                     light.sampleArea * (1 / kPi)));
-  return power * most;
-}
-
 void TileCutSelector::select(const SurfaceLight& light, std::span<const PixelGroup> groups,
                              size_t nodeCount, TileCut* out) {
-  groups_ = groups;
+  const GroupLanes lanes(groups);
   const uint32_t leaves = 1u << light.sums.levels;
   heap_.clear(), nodes_.clear();
   const auto offer = [&](uint32_t node) {
-    const float error = node < leaves ? errorOf(light, node) : 0;
+    const float error = node < leaves ? errorOf(light, lanes, node) : 0;
     if (error > 0) {
       heap_.push_back({error, node});
       std::push_heap(heap_.begin(), heap_.end());
@@ -71,10 +49,14 @@ void TileCutSelector::select(const SurfaceLight& light, std::span<const PixelGro
   for (const Candidate& candidate : heap_) nodes_.push_back(candidate.node);
   makeLightCut(light.sums, &nodes_, &out->cut);
   const LightCut& cut = out->cut;
-  for (AlignedFloats* values : {&out->nx, &out->ny, &out->nz}) values->assign(cut.padded(), 0.f);
+  for (AlignedFloats* values : {&out->nx, &out->ny, &out->nz, &out->variance, &out->extent2})
+    values->assign(cut.padded(), 0.f);
   for (size_t i = 0; i < cut.count; ++i) {
     const Vec3f n = light.normal(cut.heap[i]);
     out->nx[i] = n.x, out->ny[i] = n.y, out->nz[i] = n.z;
+    // Of leaves exactly 0.
+    out->variance[i] = cut.nodes[i].level > 0 ? std::max(1 - lengthSquared(n), 0.f) / 3 : 0.f;
+    out->extent2[i] = sqr(light.size[cut.heap[i]]);
   }
 }
 

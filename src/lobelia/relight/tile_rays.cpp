@@ -6,12 +6,11 @@
 
 namespace lobelia::relight {
 
-std::vector<TileArea> tileAreas(const Film& film) {
+std::vector<TileArea> tileAreas(const Film& film, int size) {
   std::vector<TileArea> areas;
-  for (int y = 0; y < film.height; y += kTileSize)
-    for (int x = 0; x < film.width; x += kTileSize)
-      areas.push_back(
-          {x, y, std::min(x + kTileSize, film.width), std::min(y + kTileSize, film.height)});
+  for (int y = 0; y < film.height; y += size)
+    for (int x = 0; x < film.width; x += size)
+      areas.push_back({x, y, std::min(x + size, film.width), std::min(y + size, film.height)});
   return areas;
 }
 

@@ -9,14 +9,14 @@
 
 namespace lobelia::relight {
 
-inline constexpr int kTileSize = 32;  // pixels along an edge
+inline constexpr int kTileSize = 32;  // pixels along an edge, at most
 
 // Pixels [x0, x1) x [y0, y1) of the film's data window.
 struct TileArea {
   int x0, y0, x1, y1;
 };
-// The tiles of a film, row by row.
-std::vector<TileArea> tileAreas(const Film& film);
+// The tiles of a film, row by row; size: pixels along an edge, at most kTileSize.
+std::vector<TileArea> tileAreas(const Film& film, int size = kTileSize);
 
 // Where a pixel lies among the vertices of a cache.
 struct PixelPlace {
