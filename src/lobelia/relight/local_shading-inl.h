@@ -56,7 +56,7 @@ inline void gatherNearLight(const relight::NearLights& lights, size_t chunkCount
       (v.x * inverse).store(out->x.data() + to + lane);
       (v.y * inverse).store(out->y.data() + to + lane);
       (v.z * inverse).store(out->z.data() + to + lane);
-      (Vf(0.25f) * (Vf::load(lights.extent2 + at) + Vf(2.f) * softening) / d2)
+      (Vf(0.25f) * (Vf::load(lights.extent2 + at) + Vf(5.f) * softening) / d2)
           .store(out->widening.data() + to + lane);
     }
     if (lit == 0) continue;
