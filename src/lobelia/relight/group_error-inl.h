@@ -34,11 +34,11 @@ HWY_INLINE Vf errors(const relight::GroupLanes& g, size_t at, const relight::Nod
   const V3<Vf> n = loadLanes(g.normal, at), m = everywhere(node.normal);
   const Vf along = dot(n, m), off = sqrt(max(one - along * along, zero)) + tilt;
   const Vf above = dot(n, to) + dot(absolute(n), half);
-  const Vf receiver =
-      select(Vf::load(g.flat.data() + at) > zero, min(above * inverse + angle * off, one), one);
+  const Vf receiver = min(above * inverse + angle * off + Vf::load(g.bend.data() + at), one);
   const Vf before = dot(absolute(m), half) - dot(m, to);
   const Vf sender = min(before * inverse + tilt * (one + angle), one);
-  const Vf diffuse = receiver * (wide + tilt);
+  // Never nothing where light may come: largestError() also tells whether it does.
+  const Vf diffuse = receiver * (wide + tilt + Vf(1e-6f));
   const V3<Vf> apart = to * (one / sqrt(max(dot(to, to), Vf(1e-30f)))) - loadLanes(g.axis, at);
   const Vf reach = Vf::load(g.chord.data() + at) + wide + Vf::load(g.size.data() + at) * inverse;
   const Vf glossy =

@@ -24,8 +24,7 @@ GroupLanes::GroupLanes(std::span<const PixelGroup> groups) {
       centre[k][i] = c[k], half[k][i] = h[k];
       normal[k][i] = group.normal[k], axis[k][i] = group.axis[k];
     }
-    flat[i] = group.flat ? 1.f : 0.f;
-    chord[i] = group.chord, width[i] = group.width, peak[i] = group.peak;
+    bend[i] = group.bend, chord[i] = group.chord, width[i] = group.width, peak[i] = group.peak;
     size[i] = length(h);
   }
 }

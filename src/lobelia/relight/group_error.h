@@ -13,8 +13,8 @@ namespace lobelia::relight {
 // Some pixels that lie close together.
 struct PixelGroup {
   Bounds3f box;
-  Vec3f normal;       // unit mean of geometric normals on the side of the eye
-  bool flat = false;  // do all normals agree with it?
+  Vec3f normal;    // unit mean of geometric normals on the side of the eye
+  float bend = 0;  // sine of what normals deviate from it by; 1 from a right angle on
   // The narrowest of the glossy lobes, around mirror directions: chord (2 sin of half the angle)
   // about the axis that holds its reach at all pixels.
   Vec3f axis;
@@ -28,7 +28,7 @@ struct GroupLanes {
   static constexpr size_t kMost = 16;
   explicit GroupLanes(std::span<const PixelGroup> groups);  // at least one, at most kMost
   struct alignas(64) Lane : std::array<float, kMost> {};
-  Lane centre[3], half[3], normal[3], flat, axis[3], chord, width, peak, size;
+  Lane centre[3], half[3], normal[3], bend, axis[3], chord, width, peak, size;
 };
 
 // A node as errors are judged by it.

@@ -17,13 +17,14 @@ HWY_EXPORT(sumWidenedLobe);
 
 namespace lobelia::relight {
 
-void gatherNearLight(const NearLights& lights, size_t chunkCount, Vec3f p, Vec3f normal,
-                     NearLight* out) {
-  HWY_DYNAMIC_DISPATCH(lobelia::gatherNearLight)(lights, chunkCount, p, normal, out);
+void gatherNearLight(const NearLights& lights, std::span<const uint32_t> chunks, Vec3f p,
+                     Vec3f normal, NearLight* out) {
+  HWY_DYNAMIC_DISPATCH(lobelia::gatherNearLight)(lights, chunks, p, normal, out);
 }
 
-Rgb sumWidenedLobe(const LobeQuery& query, const NearLight& light, uint64_t* evaluations) {
-  return HWY_DYNAMIC_DISPATCH(lobelia::sumWidenedLobe)(query, light, evaluations);
+Rgb sumWidenedLobe(const LobeQuery& query, const NearLight& light, float reach,
+                   uint64_t* evaluations) {
+  return HWY_DYNAMIC_DISPATCH(lobelia::sumWidenedLobe)(query, light, reach, evaluations);
 }
 
 }  // namespace lobelia::relight

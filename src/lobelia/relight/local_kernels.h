@@ -2,6 +2,8 @@
 // time. What it makes are directions with light, which the lobes of pixel_kernels.h take.
 #pragma once
 
+#include <span>
+
 #include "lobelia/relight/pixel_kernels.h"
 
 namespace lobelia::relight {
@@ -33,17 +35,18 @@ struct NearLights {
   float softening = 0;
 };
 
-// Fills *out, which has to have room, with the chunks of [0, chunkCount) that have light for a
-// place p: radiance times solid angle from each node in front of the surface that faces p. normal:
+// Fills *out, which has to have room, with those of the chunks that have light for a place p:
+// radiance times solid angle from each node in front of the surface that faces p. normal:
 // geometric, on the side of the eye.
-void gatherNearLight(const NearLights& lights, size_t chunkCount, Vec3f p, Vec3f normal,
-                     NearLight* out);
+void gatherNearLight(const NearLights& lights, std::span<const uint32_t> chunks, Vec3f p,
+                     Vec3f normal, NearLight* out);
 
 // Like sumLobe(), with lobes as much broader as nodes are wide: a lobe narrower than a node would
 // see all of its light or none. Half vectors of deviation alpha / sqrt(2) along an axis reflect
 // into directions of deviation sqrt(2) alpha; light from a disc at distance d with the mean square
 // e2 of distances from its middle has sqrt(e2 / 2) / d; both add up squared: alpha^2 grows by e2 /
-// (4 d^2).
-Rgb sumWidenedLobe(const LobeQuery& query, const NearLight& light, uint64_t* evaluations);
+// (4 d^2). reach: chord about query.mirror beyond which nodes are left out; 2: none is.
+Rgb sumWidenedLobe(const LobeQuery& query, const NearLight& light, float reach,
+                   uint64_t* evaluations);
 
 }  // namespace lobelia::relight

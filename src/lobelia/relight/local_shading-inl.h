@@ -22,18 +22,18 @@ HWY_INLINE Vf interpolatedRow(const relight::NearLights& lights, size_t channel,
          Vf::load(lights.rows[2].channel(channel) + at) * Vf(lights.weight[2]);
 }
 
-inline void gatherNearLight(const relight::NearLights& lights, size_t chunkCount, Vec3f place,
-                            Vec3f normal, relight::NearLight* out) {
+inline void gatherNearLight(const relight::NearLights& lights, std::span<const uint32_t> chunks,
+                            Vec3f place, Vec3f normal, relight::NearLight* out) {
   const V3<Vf> p{Vf(place.x), Vf(place.y), Vf(place.z)};
   const V3<Vf> n{Vf(normal.x), Vf(normal.y), Vf(normal.z)};
   const Vf softening(lights.softening), zero(0.f);
   float* const light[3] = {out->r.data(), out->g.data(), out->b.data()};
   out->chunkCount = 0;
-  for (size_t chunk = 0; chunk < chunkCount; ++chunk) {
+  for (const uint32_t chunk : chunks) {
     const size_t to = out->chunkCount * relight::kChunk;
     uint32_t lit = 0;
     for (size_t lane = 0; lane < relight::kChunk; lane += kLanes) {
-      const size_t at = chunk * relight::kChunk + lane;
+      const size_t at = size_t{chunk} * relight::kChunk + lane;
       const V3<Vf> v = loadVector(lights.place, at) - p;
       const Vf d2 = max(dot(v, v), Vf(1e-30f)), inverse = Vf(1.f) / sqrt(d2);
       const Vf cosine = zero - dot(v, loadVector(lights.normal, at)) * inverse;
@@ -60,7 +60,7 @@ inline void gatherNearLight(const relight::NearLights& lights, size_t chunkCount
           .store(out->widening.data() + to + lane);
     }
     if (lit == 0) continue;
-    out->chunk[out->chunkCount] = static_cast<uint32_t>(chunk);
+    out->chunk[out->chunkCount] = chunk;
     out->lit[out->chunkCount++] = static_cast<uint16_t>(lit);
   }
 }
@@ -74,7 +74,7 @@ HWY_INLINE Vf widenedParameter(LobeType type, float parameter, Vf widening) {
 
 template <class Tags>
 HWY_FLATTEN LightSum sumWidened(Tags tags, const relight::LobeQuery& query,
-                                const relight::NearLight& light) {
+                                const relight::NearLight& light, float reach) {
   const Lobe& lobe = *query.lobe;
   const ShadingFrame& frame = *query.frame;
   LobeParameters<Vf> p;
@@ -84,6 +84,7 @@ HWY_FLATTEN LightSum sumWidened(Tags tags, const relight::LobeQuery& query,
   const V3<Vf> s = splatVector(frame.s), t = splatVector(frame.t), n = splatVector(frame.n);
   const V3<Vf> wo = splatVector(frame.toLocal(query.wo));
   const LayerTable table{lobe.table};
+  const V3<Vf> mirror = splatVector(query.mirror);
   LightSum out = noLight();
   for (size_t chunk = 0; chunk < light.chunkCount; ++chunk)
     for (size_t lane = 0; lane < relight::kChunk; lane += kLanes) {
@@ -94,6 +95,10 @@ HWY_FLATTEN LightSum sumWidened(Tags tags, const relight::LobeQuery& query,
       const V3<Vf> d{Vf::load(light.x.data() + at), Vf::load(light.y.data() + at),
                      Vf::load(light.z.data() + at)};
       const Vf widening = Vf::load(light.widening.data() + at);
+      if (reach < 2) {  // chords
+        const Vf far = Vf(reach) + Vf(4.f) * sqrt(widening);
+        if (!any(Vf(2.f) - Vf(2.f) * dot(mirror, d) < far * far)) continue;
+      }
       p.alphaX = widenedParameter(lobe.type, lobe.alphaX, widening);
       p.alphaY = widenedParameter(lobe.type, lobe.alphaY, widening);
       const V3<Vf> wi{dot(s, d), dot(t, d), dot(n, d)};
@@ -109,18 +114,18 @@ HWY_FLATTEN LightSum sumWidened(Tags tags, const relight::LobeQuery& query,
 }
 
 inline Rgb sumWidenedLobe(const relight::LobeQuery& query, const relight::NearLight& light,
-                          uint64_t* evaluations) {
+                          float reach, uint64_t* evaluations) {
   const Lobe& lobe = *query.lobe;
   using Conductor =
       FixedTags<LobeType::microfacetReflection, Distribution::ggx, Fresnel::conductor>;
   using Dielectric =
       FixedTags<LobeType::microfacetReflection, Distribution::ggx, Fresnel::dielectric>;
   const LightSum out =
-      Conductor::equal(lobe) ? sumWidened(Conductor(), query, light)
+      Conductor::equal(lobe) ? sumWidened(Conductor(), query, light, reach)
       : Dielectric::equal(lobe)
-          ? sumWidened(Dielectric(), query, light)
+          ? sumWidened(Dielectric(), query, light, reach)
           : sumWidened(LobeTags{lobe.type, lobe.distribution, lobe.fresnel, lobe.variant}, query,
-                       light);
+                       light, reach);
   *evaluations += out.lanes;
   alignas(64) float lanes[3][kLanes];
   out.sum.x.store(lanes[0]);

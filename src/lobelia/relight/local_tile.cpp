@@ -1,6 +1,7 @@
 #include "lobelia/relight/local_tile.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lobelia/base/random.h"
 #include "lobelia/bsdf/lobe_kind.h"
@@ -16,6 +17,11 @@ constexpr uint64_t kStream = 0x6c6f63616cull;
 constexpr float kBroad = 0.5f;  // roughness of lobes that nodes of a cut are narrower than
 
 bool needsWidening(const Lobe& lobe) { return !isDiffuse(lobe.type) && roughness(lobe) < kBroad; }
+
+// Of coats, which reflect some hundredths, all but a thirtieth suffices; metals' tails are seen.
+float reachOf(const Lobe& lobe) {
+  return lobe.fresnel == Fresnel::dielectric ? 8 * std::sqrt(2.f) * roughness(lobe) : 2.f;
+}
 
 // Reads the clock and adds what has passed.
 class Clock {
@@ -59,6 +65,7 @@ void LocalTile::makeSurfaces(const LocalInput& input, const TileArea& area, cons
     const int x = film.x0 + area.x0 + static_cast<int>(pixel.index) % kTileSize,
               y = film.y0 + area.y0 + static_cast<int>(pixel.index) / kTileSize;
     const uint64_t stream = (static_cast<uint64_t>(y) << 32) | static_cast<uint32_t>(x);
+    if (!input.sources.hasAreas() && !hasLobes(lit.bsdf, LobeSet::sharp)) continue;
     Sampler random(hashCombine(input.seed, kStream), stream, static_cast<uint32_t>(sample));
     lit.places = random.next2D();
     lit.lobe = random.next1D();
@@ -114,15 +121,19 @@ void LocalTile::addBounced(const LocalInput& input, LitPixel& pixel) {
     lights.rows[v] = vertices_.rows(place.slot[v]);
     lights.weight[v] = place.weight[v];
   }
-  gatherNearLight(lights, cut.padded() / kChunk, pixel.at.p, pixel.normal, &light_);
+  gatherNearLight(lights, cut_.chunks, pixel.at.p, pixel.normal, &light_);
   for (int l = 0; l < pixel.bsdf.lobeCount; ++l) {
     const Lobe& lobe = pixel.bsdf.lobes[l];
-    const LobeQuery query{&lobe, &pixel.bsdf.frameOf(lobe), pixel.bsdf.baseNormal, pixel.wo};
+    LobeQuery query{&lobe, &pixel.bsdf.frameOf(lobe), pixel.bsdf.baseNormal, pixel.wo};
     const bool seen = dot(query.frame->n, pixel.wo) > 0 || lobe.twoSided || lobe.interface;
     if (lobe.sharp || isTransmission(lobe.type) || !seen) continue;
-    pixel.sum += needsWidening(lobe)
-                     ? sumWidenedLobe(query, light_, &counts_.evaluations)
-                     : sumLobe(query, light_, light_.lit.data(), &counts_.evaluations);
+    if (needsWidening(lobe)) {
+      const Vec3f n = query.frame->n;
+      query.mirror = n * (2 * dot(n, pixel.wo)) - pixel.wo;
+      pixel.sum += sumWidenedLobe(query, light_, reachOf(lobe), &counts_.evaluations);
+    } else {
+      pixel.sum += sumLobe(query, light_, light_.lit.data(), &counts_.evaluations);
+    }
   }
 }
 

@@ -10,7 +10,6 @@
 namespace lobelia::relight {
 namespace {
 
-constexpr float kFlat = 0.99f;     // cosine between a flat group's normals and their mean
 constexpr float kBroadest = 0.5f;  // roughness of lobes that need no more than diffuse ones
 
 struct MirrorLobe {
@@ -52,12 +51,10 @@ PixelGroup groupOf(std::span<const LitPixel> pixels) {
     alpha = std::min(alpha, lobe->alpha);
     group.peak = std::max(group.peak, lobe->peak);
   }
-  if (lengthSquared(normals) > 1e-12f) {
-    group.normal = normalize(normals);
-    group.flat = std::all_of(pixels.begin(), pixels.end(), [&](const LitPixel& pixel) {
-      return dot(pixel.normal, group.normal) >= kFlat;
-    });
-  }
+  group.normal = lengthSquared(normals) > 1e-12f ? normalize(normals) : pixels[0].normal;
+  float least = 1;
+  for (const LitPixel& pixel : pixels) least = std::min(least, dot(pixel.normal, group.normal));
+  group.bend = least > 0 ? std::sqrt(std::max(1 - least * least, 0.f)) : 1.f;
   if (glossy == 0) return group;
   group.axis = lengthSquared(axes) > 1e-12f ? normalize(axes) : lobes[0].axis;
   group.width = 2 * alpha;

@@ -51,7 +51,12 @@ void TileCutSelector::select(const SurfaceLight& light, std::span<const PixelGro
   const LightCut& cut = out->cut;
   for (AlignedFloats* values : {&out->nx, &out->ny, &out->nz, &out->variance, &out->extent2})
     values->assign(cut.padded(), 0.f);
+  out->chunks.clear();
   for (size_t i = 0; i < cut.count; ++i) {
+    const auto chunk = static_cast<uint32_t>(i / kChunk);
+    if ((out->chunks.empty() || out->chunks.back() != chunk) &&
+        errorOf(light, lanes, static_cast<uint32_t>(cut.heap[i])) > 0)
+      out->chunks.push_back(chunk);
     const Vec3f n = light.normal(cut.heap[i]);
     out->nx[i] = n.x, out->ny[i] = n.y, out->nz[i] = n.z;
     // Of leaves exactly 0.

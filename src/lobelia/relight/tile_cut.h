@@ -20,6 +20,7 @@ struct TileCut {
   LightCut cut;  // x, y, z: places
   // Of the nodes, filled up to whole chunks; see NearLights (local_kernels.h).
   AlignedFloats nx, ny, nz, variance, extent2;
+  std::vector<uint32_t> chunks;  // those with a node that may send light to the tile
 };
 
 // Keeps its memory from tile to tile. For one thread.
