@@ -23,9 +23,8 @@ struct NearLights {
   const float* place[3];   // x, y, z
   const float* normal[3];  // means, at most unit
   // The mean of max(0, n.w) over a node's normals, of which c = n.w of the mean normal is known, is
-  // taken as (c + sqrt(c^2 + v)) / 2, where v = (1 - |n|^2) / 3 is the variance of n.w over w:
-  // exact for one normal, 1.15 times too much for a ball, and never nothing where some of a node
-  // faces the pixel.
+  // taken as (c + sqrt(c^2 + v)) / 2 with v = (1 - |n|^2) / 4: exact for one normal and for a ball,
+  // and never nothing where some of a node faces the pixel.
   const float* variance;
   const float* extent2;  // mean squared distance of the light from the place
   LightRows rows[3];     // by vertex: radiance times area, visible

@@ -60,7 +60,7 @@ void TileCutSelector::select(const SurfaceLight& light, std::span<const PixelGro
     const Vec3f n = light.normal(cut.heap[i]);
     out->nx[i] = n.x, out->ny[i] = n.y, out->nz[i] = n.z;
     // Of leaves exactly 0.
-    out->variance[i] = cut.nodes[i].level > 0 ? std::max(1 - lengthSquared(n), 0.f) / 3 : 0.f;
+    out->variance[i] = cut.nodes[i].level > 0 ? std::max(1 - lengthSquared(n), 0.f) / 4 : 0.f;
     out->extent2[i] = sqr(light.size[cut.heap[i]]);
   }
 }
