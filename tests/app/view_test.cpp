@@ -172,7 +172,7 @@ TEST_F(View, LocalLightsAndOneBounceAreThePathTracersPicture) {
     EXPECT_EQ(ref.exitCode, 0) << ref.err;
     return compare(view("--spp 16 " + which, "view.exr"), io::readFilm(file("reference.exr")));
   };
-  for (const std::string& place : {"1, 2.5, 1", "-0.5, 2, 1.5"}) {
+  for (const char* place : {"1, 2.5, 1", "-0.5, 2, 1.5"}) {
     write(kDiffuse, wall + point(place));
     const Comparison all = show(""), bounced = show("--component indirect");
     EXPECT_NEAR(all.meanRatio, 1, 0.01) << place;

@@ -29,13 +29,15 @@ HWY_INLINE Vf errors(const relight::GroupLanes& g, size_t at, const relight::Nod
   const V3<Vf> beyond{max(far.x, zero), max(far.y, zero), max(far.z, zero)};
   const Vf d2 = dot(beyond, beyond) + Vf(softening), inverse = one / sqrt(d2);
   const Vf angle = Vf(node.radius) * inverse, wide = min(angle, one);
-  // Cosines at the pixels and at the node: what lies in one plane sends itself no light. A node's
-  // samples lie off its middle along its tangents, or as far along its normal as normals tilt.
+  // Cosines at the pixels and at the node, at most: what lies in one plane sends itself no light.
   const V3<Vf> n = loadLanes(g.normal, at), m = everywhere(node.normal);
-  const Vf along = dot(n, m), off = sqrt(max(one - along * along, zero)) + tilt;
-  const Vf above = dot(n, to) + dot(absolute(n), half);
-  const Vf receiver = min(above * inverse + angle * off + Vf::load(g.bend.data() + at), one);
-  const Vf before = dot(absolute(m), half) - dot(m, to);
+  const relight::Spread& s = node.spread;
+  const Vf high2 = n.x * n.x * Vf(s.xx) + n.y * n.y * Vf(s.yy) + n.z * n.z * Vf(s.zz) +
+                   Vf(2.f) * (n.x * n.y * Vf(s.xy) + n.x * n.z * Vf(s.xz) + n.y * n.z * Vf(s.yz));
+  const Vf above =
+      dot(n, to) + dot(absolute(n), half) + Vf(relight::NodeShape::kReach) * sqrt(max(high2, zero));
+  const Vf receiver = min(above * inverse + Vf::load(g.bend.data() + at), one);
+  const Vf before = dot(absolute(m), half) - dot(m, to) + Vf(node.thickness);
   const Vf sender = min(before * inverse + tilt * (one + angle), one);
   // Never nothing where light may come: largestError() also tells whether it does.
   const Vf diffuse = receiver * (wide + tilt + Vf(1e-6f));

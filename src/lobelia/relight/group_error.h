@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "lobelia/base/vec.h"
+#include "lobelia/relight/surface_light.h"
 
 namespace lobelia::relight {
 
@@ -33,9 +33,12 @@ struct GroupLanes {
 
 // A node as errors are judged by it.
 struct NodeShape {
-  Vec3f place, normal;  // unit, or zero
-  float radius = 0;     // of an even disc with the node's extent
-  float tilt = 0;       // sine of what normals deviate by
+  static constexpr float kReach = 2;  // of an even disc in deviations along an axis
+  Vec3f place, normal;                // unit, or zero
+  float radius = 0;                   // of an even disc with the node's extent
+  float thickness = 0;                // how far its light lies off its middle along its normal
+  float tilt = 0;                     // sine of what normals deviate by
+  Spread spread;
 };
 
 // The largest error that evaluating lobes at a node's place brings to a group, of a node of unit

@@ -12,12 +12,23 @@
 
 namespace lobelia::relight {
 
+// Covariance of places, symmetric.
+struct Spread {
+  float xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+  float trace() const { return xx + yy + zz; }
+  // Mean squared distance along a unit direction.
+  float along(Vec3f d) const {
+    return xx * d.x * d.x + yy * d.y * d.y + zz * d.z * d.z +
+           2 * (xy * d.x * d.y + xz * d.x * d.z + yz * d.y * d.z);
+  }
+};
+
 // By heap index (sample_tree.h), 2 << levels entries, the first of no meaning.
 struct SurfaceLight {
-  LightSums sums;            // radiance times area; x, y, z: mean places, not directions
-  AlignedFloats nx, ny, nz;  // mean normals, at most unit
-  std::vector<float> size;   // root of the mean squared distance of the light from its place
-  float sampleArea = 0;      // that one sample stands for
+  LightSums sums;              // radiance times area; x, y, z: mean places, not directions
+  AlignedFloats nx, ny, nz;    // mean normals, at most unit
+  std::vector<Spread> spread;  // of the light about the mean place
+  float sampleArea = 0;        // that one sample stands for
   Vec3f place(size_t node) const { return sums.direction(node); }
   Vec3f normal(size_t node) const { return {nx[node], ny[node], nz[node]}; }
 };

@@ -7,10 +7,16 @@ namespace lobelia::relight {
 namespace {
 
 NodeShape shapeOf(const SurfaceLight& light, uint32_t node) {
+  NodeShape shape;
   const Vec3f mean = light.normal(node);
   const float agree = length(mean);
-  return {light.place(node), agree > 1e-6f ? mean * (1 / agree) : Vec3f(),
-          std::sqrt(2.f) * light.size[node], std::sqrt(std::max(1 - agree * agree, 0.f))};
+  shape.place = light.place(node);
+  shape.normal = agree > 1e-6f ? mean * (1 / agree) : Vec3f();
+  shape.spread = light.spread[node];
+  shape.radius = std::sqrt(2 * shape.spread.trace());
+  shape.thickness = NodeShape::kReach * std::sqrt(std::max(shape.spread.along(shape.normal), 0.f));
+  shape.tilt = std::sqrt(std::max(1 - agree * agree, 0.f));
+  return shape;
 }
 
 float errorOf(const SurfaceLight& light, const GroupLanes& groups, uint32_t node) {
@@ -61,7 +67,7 @@ void TileCutSelector::select(const SurfaceLight& light, std::span<const PixelGro
     out->nx[i] = n.x, out->ny[i] = n.y, out->nz[i] = n.z;
     // Of leaves exactly 0.
     out->variance[i] = cut.nodes[i].level > 0 ? std::max(1 - lengthSquared(n), 0.f) / 4 : 0.f;
-    out->extent2[i] = sqr(light.size[cut.heap[i]]);
+    out->extent2[i] = light.spread[cut.heap[i]].trace();
   }
 }
 
