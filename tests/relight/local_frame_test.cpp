@@ -99,10 +99,14 @@ Rgb bruteForce(const Stage& stage, const std::vector<Rgb>& radiance, int x, int 
   const SurroundingVertices around = stage.data.mesh.at(hit.instance, hit.triangle, hit.b1, hit.b2);
   double sum[3] = {};
   for (uint32_t i = 0; i < radiance.size(); ++i) {
-    const Vec3f v = stage.data.samples.p[i] - at.p;
-    const float d2 = lengthSquared(v), area = stage.data.samples.measure[i];
+    const float area = stage.data.samples.measure[i];
+    Vec3f v = stage.data.samples.p[i] - at.p;
+    const Vec3f n = stage.data.samples.n[i];
+    const float height = -dot(v, n), least = 0.5f * std::sqrt(area / kPi);
+    if (height > 0 && height < least) v -= n * (least - height);  // NearLights
+    const float d2 = lengthSquared(v);
     const Vec3f wi = normalize(v);
-    const float cosine = -dot(stage.data.samples.n[i], wi);
+    const float cosine = -dot(n, wi);
     if (!(cosine > 0) || !(dot(at.ng, wi) * dot(at.ng, -ray.d) > 0)) continue;
     float visible = 0;
     for (size_t k = 0; k < 3; ++k)

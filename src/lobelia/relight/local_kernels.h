@@ -30,7 +30,8 @@ struct NearLights {
   LightRows rows[3];     // by vertex: radiance times area, visible
   float weight[3];
   // A sample's disc of area A at distance d sends 1 / (d^2 + A / pi) along its axis where a point
-  // sends 1 / d^2: A / pi.
+  // sends 1 / d^2: A / pi. A pixel nearer to the disc's plane than half the disc's radius is taken
+  // to be so far above it: else it would lie between samples, and corners would be dark.
   float softening = 0;
 };
 

@@ -6,6 +6,8 @@
 #define LOBELIA_RELIGHT_LOCAL_SHADING_INL_H_
 #endif
 
+#include <cmath>
+
 #include "lobelia/base/simd-inl.h"
 #include "lobelia/relight/local_kernels.h"
 #include "lobelia/relight/pixel_shading-inl.h"
@@ -26,7 +28,7 @@ inline void gatherNearLight(const relight::NearLights& lights, std::span<const u
                             Vec3f place, Vec3f normal, relight::NearLight* out) {
   const V3<Vf> p{Vf(place.x), Vf(place.y), Vf(place.z)};
   const V3<Vf> n{Vf(normal.x), Vf(normal.y), Vf(normal.z)};
-  const Vf softening(lights.softening), zero(0.f);
+  const Vf softening(lights.softening), zero(0.f), least(0.5f * std::sqrt(lights.softening));
   float* const light[3] = {out->r.data(), out->g.data(), out->b.data()};
   out->chunkCount = 0;
   for (const uint32_t chunk : chunks) {
@@ -34,9 +36,13 @@ inline void gatherNearLight(const relight::NearLights& lights, std::span<const u
     uint32_t lit = 0;
     for (size_t lane = 0; lane < relight::kChunk; lane += kLanes) {
       const size_t at = size_t{chunk} * relight::kChunk + lane;
-      const V3<Vf> v = loadVector(lights.place, at) - p;
+      const V3<Vf> straight = loadVector(lights.place, at) - p;
+      const V3<Vf> facet = loadVector(lights.normal, at);
+      const Vf height = zero - dot(straight, facet);
+      const Vf lift = select(height > zero, max(least - height, zero), zero);
+      const V3<Vf> v = straight - facet * lift;
       const Vf d2 = max(dot(v, v), Vf(1e-30f)), inverse = Vf(1.f) / sqrt(d2);
-      const Vf cosine = zero - dot(v, loadVector(lights.normal, at)) * inverse;
+      const Vf cosine = zero - dot(v, facet) * inverse;
       const Vf variance = Vf::load(lights.variance + at);
       const Vf facing = Vf(0.5f) * (cosine + sqrt(cosine * cosine + variance));
       // What is left of nodes that face away is not worth a lobe.
