@@ -51,7 +51,7 @@ class StudioTest : public testing::Test {
           runProgram("precompute " + file("scene.xml") +
                      " --method cuts --samples 512 --clusters 16 --quiet -o " + file("data"));
       EXPECT_EQ(r.exitCode, 0) << r.err;
-      settings.data = file("data");
+      settings.data = {file("data")};
     }
     Context context;
     return std::make_unique<Studio>(settings, context);

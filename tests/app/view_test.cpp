@@ -145,6 +145,83 @@ TEST_F(View, SaysWhatItLeavesOut) {
   EXPECT_NE(r.err.find("no light from infinity"), std::string::npos) << r.err;
 }
 
+// A block on a floor beside a wall under a lamp: direct light and one bounce are what the path
+// tracer finds up to depth 3. The same data for another lamp, elsewhere.
+TEST_F(View, LocalLightsAndOneBounceAreThePathTracersPicture) {
+  const std::string wall = R"(<shape type="rectangle"><transform name="to_world">
+    <scale value="2"/><rotate y="1" angle="90"/><translate x="-2" y="2"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0.8, 0.3, 0.2"/></bsdf></shape>)";
+  const auto point = [](const std::string& at) {
+    return R"(<emitter type="point"><point name="position" value=")" + at +
+           R"("/><rgb name="intensity" value="9, 8, 7"/></emitter>)";
+  };
+  write(kDiffuse, wall + point("1, 2.5, 1"));
+  const ProgramResult r =
+      runProgram("precompute " + file("scene.xml") +
+                 " --method cuts --light surfaces --samples 4096 --sigma 0.7 --clusters 16 --quiet "
+                 "-o " +
+                 file("data"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const std::string lamp = R"(<shape type="rectangle"><transform name="to_world">
+    <scale value="0.2"/><rotate x="1" angle="90"/><translate x="0.5" y="2.5" z="1"/></transform>
+    <emitter type="area"><rgb name="radiance" value="40"/></emitter></shape>)";
+  const auto show = [&](const std::string& which) {
+    const ProgramResult ref = runProgram("render " + file("scene.xml") +
+                                         " --lights path --max-depth 3 --spp 512 --quiet " + which +
+                                         " -o " + file("reference.exr"));
+    EXPECT_EQ(ref.exitCode, 0) << ref.err;
+    return compare(view("--spp 16 " + which, "view.exr"), io::readFilm(file("reference.exr")));
+  };
+  for (const char* place : {"1, 2.5, 1", "-0.5, 2, 1.5"}) {
+    write(kDiffuse, wall + point(place));
+    const Comparison all = show(""), bounced = show("--component indirect");
+    EXPECT_NEAR(all.meanRatio, 1, 0.01) << place;
+    EXPECT_LT(all.l2, 0.03) << place;
+    EXPECT_NEAR(bounced.meanRatio, 1, 0.03) << place;
+    EXPECT_LT(bounced.l2, 0.08) << place;
+  }
+  // Data know the geometry, not what emits; a lamp that is an object needs data with it.
+  write(kDiffuse, wall + lamp);
+  const ProgramResult other = runProgram(command("", "x.exr"));
+  EXPECT_EQ(other.exitCode, 3) << other.err;
+}
+
+TEST_F(View, DataOfBothKindsAddUp) {
+  const std::string point = R"(<emitter type="point"><point name="position" value="1, 2, 2"/>
+    <rgb name="intensity" value="5"/></emitter>)";
+  write(kGlossy, std::string(kSky) + point);
+  precompute();
+  const ProgramResult r = runProgram("precompute " + file("scene.xml") +
+                                     " --method cuts --light surfaces --samples 1024 --clusters 16 "
+                                     "--quiet -o " +
+                                     file("local"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const std::vector<float> both =
+      view("--data " + file("local") + " --stats " + file("stats.json"), "both.exr")
+          .layers.at("")
+          .values;
+  const std::vector<float> sky = view("", "sky.exr").layers.at("").values;
+  const ProgramResult local = runProgram("view " + file("scene.xml") + " --data " + file("local") +
+                                         " --headless -o " + file("local.exr"));
+  ASSERT_EQ(local.exitCode, 0) << local.err;
+  EXPECT_NE(local.err.find("1 of 2 emitters are at infinity"), std::string::npos) << local.err;
+  const Film near = io::readFilm(file("local.exr"));
+  // Where there is a surface; the sky itself is in both.
+  const size_t middle = size_t{12} * 32 + 16;
+  for (size_t c = 0; c < 3; ++c) {
+    const size_t i = 3 * middle + c;
+    EXPECT_GT(near.layers.at("").values[i], 0);
+    EXPECT_NEAR(both[i], sky[i] + near.layers.at("").values[i], 1e-5f);
+  }
+  const nlohmann::json stats = nlohmann::json::parse(readText(file("stats.json")));
+  EXPECT_EQ(stats["lights"]["model"], "environment and surfaces");
+  EXPECT_EQ(stats["counts"]["frames"], 1);
+  EXPECT_GT(stats["counts"]["cut_nodes_per_pixel"], 0);
+  EXPECT_GT(stats["seconds"]["direct"], 0);
+  expectFailure(command("--data " + file("data"), "x.exr"), 2, "second file");
+  expectFailure(command("--component some", "x.exr"), 2, "--component");
+}
+
 // Every edit is seen in the frames after it, and equals what the scene renders with that edit.
 TEST_F(View, ScriptsChangeWhatFramesShow) {
   write(R"(<bsdf type="diffuse" id="paint"/>)", kSky);

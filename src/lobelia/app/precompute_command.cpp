@@ -137,8 +137,6 @@ void run(const PrecomputeOptions& options, Context& context) {
   }
   context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);
   context.info(summary(options, context));
-  if (settingsOf(options).light == relight::LightSamples::Kind::surfaces)
-    context.warning("`lobelia view` draws with data of light from an environment only so far");
   if (options.stats.empty()) return;
   const std::string text = statisticsJson(options, scene, data, context).dump(2) + "\n";
   writeFileAtomically(options.stats, std::as_bytes(std::span<const char>(text)));

@@ -35,8 +35,11 @@ void requireView(const ViewOptions& options) {
     throw UsageError("--rotate-step: say for how many frames with --frames N");
   std::vector<std::string> written = render.outputs;
   written.push_back(render.stats);
-  requireNoInput(written, {options.data, options.script, render.scene.scene, render.scene.design,
-                           render.scene.environment});
+  std::vector<std::string> read = options.data;
+  for (const std::string& file :
+       {options.script, render.scene.scene, render.scene.design, render.scene.environment})
+    read.push_back(file);
+  requireNoInput(written, read);
   requirePicture(options.render);
   requireFrames(options.render);
 }
@@ -46,8 +49,10 @@ void requireView(const ViewOptions& options) {
 void addViewOptions(CLI::App& c, ViewOptions& o) {
   addSceneOptions(c, o.render.scene);
   c.add_option("--data", o.data,
-               "Visibility of the scene, by `lobelia precompute`; needed for cuts")
-      ->type_name("FILE");
+               "Visibility of the scene, by `lobelia precompute`, needed for cuts; twice: of light "
+               "from infinity and of local lights")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   c.add_option("--ui-script", o.uiScript,
                "Plays mouse and keys at the window, then closes it (docs/manual.md)")
       ->type_name("FILE");
@@ -66,6 +71,16 @@ void addViewOptions(CLI::App& c, ViewOptions& o) {
   c.add_option("--light-cut", o.lightCut, "Nodes of the light's cut, at most")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 15))
+      ->capture_default_str();
+  c.add_option("--area-places", o.areaPlaces,
+               "Places of each area emitter from which it lights a pixel")
+      ->type_name("N")
+      ->check(integerRange(1, 1024))
+      ->capture_default_str();
+  c.add_option("--component", o.render.component,
+               "Which light of data of local lights: all, direct or indirect")
+      ->type_name("WHICH")
+      ->check(CLI::IsMember({"all", "direct", "indirect"}))
       ->capture_default_str();
   c.add_option("--rotate", o.rotate,
                "Turn the light from infinity about the environment's vertical axis")

@@ -1,8 +1,9 @@
-// `lobelia view`: frames of a scene under light from infinity, by precomputed visibility cuts
-// (relight/frame.h); in a window (viewer/window_run.h) or, headless, into files.
+// `lobelia view`: frames of a scene by precomputed visibility cuts (cut_frames.h) and by the
+// methods of `render`; in a window (viewer/window_run.h) or, headless, into files.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lobelia/app/render_options.h"
 #include "lobelia/base/error.h"
@@ -10,12 +11,13 @@
 namespace lobelia::app {
 
 struct ViewOptions {
-  RenderOptions render;  // of which addViewOptions() sets what a frame needs
-  std::string data;      // `lobelia precompute`
-  std::string script;    // view_script.h; "": none
-  std::string uiScript;  // viewer/ui_script.h; "": none
+  RenderOptions render;           // of which addViewOptions() sets what a frame needs
+  std::vector<std::string> data;  // `lobelia precompute`
+  std::string script;             // view_script.h; "": none
+  std::string uiScript;           // viewer/ui_script.h; "": none
   bool headless = false;
   size_t lightCut = 512;    // nodes
+  int areaPlaces = 4;       // of each area emitter
   double rotate = 0;        // of the environment, degrees
   double rotateStep = 0;    // more with every frame
   bool plainLobes = false;  // all lobes by the light cut alone, as the paper has it

@@ -19,28 +19,6 @@ namespace {
 
 using Kind = ScriptStep::Kind;
 
-bool lightsFromNearby(EmitterType type) {
-  return type == EmitterType::point || type == EmitterType::spot || type == EmitterType::area ||
-         type == EmitterType::projector || type == EmitterType::goniometric;
-}
-
-void warnOfMissing(const Scene& scene, Context& context) {
-  const auto near = std::count_if(scene.emitters.begin(), scene.emitters.end(),
-                                  [](const Emitter& e) { return lightsFromNearby(e.type); });
-  const auto clear =
-      std::count_if(scene.instances.begin(), scene.instances.end(),
-                    [&](const Instance& i) { return relight::transmits(scene, i.material); });
-  if (near == std::ssize(scene.emitters))
-    context.warning("the scene has no light from infinity; add some with --environment or --sky");
-  else if (near > 0)
-    context.warning(
-        fmt::format("{} of {} emitters are not at infinity: they are seen but light nothing", near,
-                    scene.emitters.size()));
-  if (clear > 0)
-    context.warning(
-        fmt::format("{} surfaces transmit light, of which only reflections are shown", clear));
-}
-
 double turned(double degrees, double further) {
   return std::fmod(degrees + std::fmod(further, 360), 360);
 }
@@ -56,9 +34,10 @@ void requireOwnFiles(const std::vector<ScriptStep>& script, const ViewOptions& o
   const SceneOptions& scene = options.render.scene;
   for (const ScriptStep& step : script) {
     if (step.kind != Kind::save && step.kind != Kind::screenshot) continue;
+    std::vector<std::string> read = options.data;
+    read.insert(read.end(), {options.script, scene.scene, scene.design, scene.environment});
     try {
-      requireNoInput({step.file},
-                     {options.data, options.script, scene.scene, scene.design, scene.environment});
+      requireNoInput({step.file}, read);
     } catch (const UsageError& e) {
       throw InputError(step.where, e.what());
     }
@@ -84,10 +63,13 @@ ViewFrames::ViewFrames(const ViewOptions& options, const std::string& commandLin
       first_(history_.share()),
       maker_(stage_, first_, options.render.seed) {
   requireOwnFiles(script_, options);
-  if (stage_.data() != nullptr) warnOfMissing(stage_.scene(), context_);
+  if (stage_.hasCuts()) warnOfMissing(stage_.data(), stage_.scene(), context_);
   view_.lightCut = options.lightCut;
   view_.refined = !options.plainLobes;
   view_.cutsSpp = std::max(options.render.spp, 1);
+  view_.cutsDepth = stage_.cutsDepth();
+  view_.areaPlaces = options.areaPlaces;
+  view_.component = options.render.component;
   view_.cropped = true;
   setCamera(plan_.front().camera);
 }

@@ -17,7 +17,10 @@ using Json = nlohmann::ordered_json;
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
 double frameSeconds(const Statistics& s) {
-  return s.seconds("light") + s.seconds("buffer") + s.seconds("merge") + s.seconds("shade");
+  double sum = 0;
+  for (const char* stage : {"light", "buffer", "cut", "merge", "direct", "shade"})
+    sum += s.seconds(stage);
+  return sum;
 }
 
 Json countsJson(const Statistics& s) {
@@ -31,6 +34,10 @@ Json countsJson(const Statistics& s) {
           {"evaluations_per_pixel", ratio(count("evaluations"), pixels)},
           {"fine_nodes_per_pixel",
            ratio(count("fine_chunks") * static_cast<double>(relight::kChunk), pixels)},
+          {"light_rays_per_frame", ratio(count("light_rays"), frames)},
+          {"shadow_rays", s.count("shadow_rays") + s.count("light_rays")},
+          {"mirror_rays", s.count("mirror_rays")},
+          {"cut_nodes_per_pixel", ratio(count("cut_nodes"), pixels)},
           {"nonfinite", s.count("nonfinite")}};
 }
 
@@ -40,8 +47,9 @@ double framesPerSecond(const Statistics& statistics) {
   return ratio(static_cast<double>(statistics.count("frames")), frameSeconds(statistics));
 }
 
-void writeViewStatistics(const ViewOptions& options, const Scene& scene,
-                         const relight::VisibilityData* data, const Context& context) {
+void writeViewStatistics(const ViewOptions& options, const Scene& scene, const CutData& both,
+                         const Context& context) {
+  const relight::VisibilityData* const data = both.any();
   const Statistics& s = context.statistics;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -52,7 +60,9 @@ void writeViewStatistics(const ViewOptions& options, const Scene& scene,
   json["scene"] = {{"triangles", triangleCount(scene)},
                    {"materials", scene.materials.size()},
                    {"emitters", scene.emitters.size()}};
-  json["lights"] = {{"model", "environment"},
+  json["lights"] = {{"model", both.environment && both.surfaces ? "environment and surfaces"
+                              : both.surfaces                   ? "surfaces"
+                                                                : "environment"},
                     {"samples", data != nullptr ? data->samples.count() : 0}};
   for (const char* kind : {"omni", "directional", "diffuse", "glossy", "spherical", "vsgl"})
     json["lights"][kind] = 0;
@@ -65,13 +75,14 @@ void writeViewStatistics(const ViewOptions& options, const Scene& scene,
                     {"vertices", static_cast<uint64_t>(vertices)},
                     {"visibility_cut", ratio(nodes, vertices)}};
   json["receivers"] = {{"diffuse", 0}, {"glossy", 0}};
-  for (const char* stage : {"load", "accel", "data", "prepare", "light", "buffer", "merge", "shade",
-                            "total", "receivers", "lights", "trees", "traverse", "visibility"})
+  for (const char* stage :
+       {"load", "accel", "data", "prepare", "light", "buffer", "cut", "merge", "direct", "shade",
+        "total", "receivers", "lights", "trees", "traverse", "visibility"})
     json["seconds"][stage] = s.seconds(stage);
   json["counts"] = countsJson(s);
-  for (const char* count : {"shadow_rays", "rays_per_pixel", "node_pairs_visited",
-                            "node_pairs_shaded", "cut_nodes_per_pixel", "lights_per_light_node",
-                            "pixels_per_pixel_node", "specular_connections"})
+  for (const char* count :
+       {"rays_per_pixel", "node_pairs_visited", "node_pairs_shaded", "lights_per_light_node",
+        "pixels_per_pixel_node", "specular_connections"})
     json["counts"][count] = 0;
   json["frames_per_second"] = framesPerSecond(s);
   json["memory"] = {{"peak_bytes", static_cast<uint64_t>(usage.ru_maxrss) * 1024},

@@ -3,16 +3,16 @@
 
 #include <string>
 
+#include "lobelia/app/cut_frames.h"
 #include "lobelia/app/view.h"
-#include "lobelia/relight/visibility_data.h"
 #include "lobelia/scene/scene.h"
 
 namespace lobelia::app {
 
 // Frames over the seconds of their making: loading and writing files is left out.
 double framesPerSecond(const Statistics& statistics);
-// data: null where there was none. Throws RuntimeError when the file cannot be written.
-void writeViewStatistics(const ViewOptions& options, const Scene& scene,
-                         const relight::VisibilityData* data, const Context& context);
+// data: without any, where there was none. Throws RuntimeError when the file cannot be written.
+void writeViewStatistics(const ViewOptions& options, const Scene& scene, const CutData& data,
+                         const Context& context);
 
 }  // namespace lobelia::app

@@ -100,17 +100,13 @@ void FrameRenderer::render(const FrameLight& light, const Camera& camera,
   const int64_t start = nanosecondsNow();
   const FrameInput input{impl_->tracer, *impl_->emitters, impl_->data, impl_->lookup,
                          light,         camera,           settings,    context.seed};
-  const int across = (film.width + FrameTile::kSize - 1) / FrameTile::kSize;
-  const int down = (film.height + FrameTile::kSize - 1) / FrameTile::kSize;
+  const std::vector<TileArea> areas = tileAreas(film);
   TileCounts counts;
   std::mutex mutex;
-  parallelFor(static_cast<size_t>(across) * static_cast<size_t>(down), 1, [&](size_t i) {
+  parallelFor(areas.size(), 1, [&](size_t i) {
     if (context.cancelled()) return;
-    const int x = static_cast<int>(i) % across * FrameTile::kSize,
-              y = static_cast<int>(i) / across * FrameTile::kSize;
     std::unique_ptr<FrameTile> tile = impl_->take();
-    const TileCounts own = tile->render(input, x, y, std::min(x + FrameTile::kSize, film.width),
-                                        std::min(y + FrameTile::kSize, film.height), film);
+    const TileCounts own = tile->render(input, areas[i], film);
     impl_->giveBack(std::move(tile));
     const std::lock_guard lock(mutex);
     counts.add(own);

@@ -4,6 +4,7 @@
 
 #include "lobelia/relight/frame.h"
 #include "lobelia/relight/pixel_shader.h"
+#include "lobelia/relight/tile_rays.h"
 
 namespace lobelia::relight {
 
@@ -28,28 +29,16 @@ struct TileCounts {
 
 class FrameTile {
  public:
-  static constexpr int kSize = 32;  // pixels along an edge
-  // Renders the pixels [x0, x1) x [y0, y1) of the data window.
-  TileCounts render(const FrameInput& input, int x0, int y0, int x1, int y1, Film& film);
+  TileCounts render(const FrameInput& input, const TileArea& area, Film& film);
 
  private:
-  struct Pixel {
-    Ray ray;
-    float weight = 1;    // of the filter
-    uint32_t index = 0;  // in the tile
-    std::optional<Hit> hit;
-    PixelPlace place{};
-  };
-  void makeRays(const FrameInput& input, const Film& film, int x0, int y0, int x1, int y1,
-                int sample);
-  void trace(const Tracer& tracer);
   // From pixel `first` on, as many as the cache has room for; returns the end of them.
   size_t placePixels(const VisibilityData& data, size_t first);
   // Adds the pixels [first, end), which are placed.
   void shade(const FrameInput& input, size_t first, size_t end, TileCounts* counts);
-  Rgb radiance(const FrameInput& input, const Pixel& pixel);
+  Rgb radiance(const FrameInput& input, const TilePixel& pixel);
 
-  std::vector<Pixel> pixels_;  // blocks of 4 x 4, one after the other
+  std::vector<TilePixel> pixels_;
   std::vector<Rgb> sums_;
   std::vector<uint64_t> evaluations_;  // by pixel
   VertexCache vertices_;

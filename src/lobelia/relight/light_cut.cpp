@@ -77,23 +77,26 @@ class Refinement {
 
 int depthOf(size_t node) { return static_cast<int>(std::bit_width(node)) - 1; }
 
-LightCut toCut(const LightSums& sums, std::vector<size_t> nodes) {
+}  // namespace
+
+void makeLightCut(const LightSums& sums, std::vector<size_t>* nodes, LightCut* out) {
   const auto level = [&](size_t node) { return sums.levels - depthOf(node); };
   const auto firstLeaf = [&](size_t node) {
     return (node - (size_t{1} << depthOf(node))) << level(node);
   };
-  std::sort(nodes.begin(), nodes.end(),
+  std::sort(nodes->begin(), nodes->end(),
             [&](size_t a, size_t b) { return firstLeaf(a) < firstLeaf(b); });
-  LightCut cut;
-  cut.count = nodes.size();
-  const size_t padded = (nodes.size() + kChunk - 1) / kChunk * kChunk;
+  LightCut& cut = *out;
+  cut.count = nodes->size();
+  cut.nodes.clear(), cut.heap.clear(), cut.begin.clear();
+  const size_t padded = (nodes->size() + kChunk - 1) / kChunk * kChunk;
   for (AlignedFloats* values : {&cut.r, &cut.g, &cut.b, &cut.x, &cut.y})
-    values->resize(padded, 0.f);
-  cut.z.resize(padded, 1.f);
+    values->assign(padded, 0.f);
+  cut.z.assign(padded, 1.f);
   const size_t leaves = size_t{1} << sums.levels;
   cut.atLeaf.resize(leaves + 1);
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    const size_t node = nodes[i], first = firstLeaf(node);
+  for (size_t i = 0; i < nodes->size(); ++i) {
+    const size_t node = (*nodes)[i], first = firstLeaf(node);
     cut.nodes.push_back({static_cast<uint8_t>(level(node)), 0});
     cut.heap.push_back(static_cast<uint32_t>(node));
     cut.begin.push_back(static_cast<uint32_t>(first));
@@ -104,11 +107,8 @@ LightCut toCut(const LightSums& sums, std::vector<size_t> nodes) {
     cut.x[i] = sums.x[node], cut.y[i] = sums.y[node], cut.z[i] = sums.z[node];
   }
   cut.begin.push_back(static_cast<uint32_t>(leaves));
-  cut.atLeaf[leaves] = static_cast<uint32_t>(nodes.size());
-  return cut;
+  cut.atLeaf[leaves] = static_cast<uint32_t>(nodes->size());
 }
-
-}  // namespace
 
 LightCut selectLightCut(const LightSums& sums, const LightCutSettings& settings) {
   const std::vector<double> errors = nodeErrors(sums);
@@ -117,7 +117,10 @@ LightCut selectLightCut(const LightSums& sums, const LightCutSettings& settings)
   cut.refine(std::max<size_t>(settings.nodeCount / 2, 1), settings.errorShare * all,
              [&](size_t node) { return std::sqrt(errors[node]); });
   cut.refine(settings.nodeCount, 0, [&](size_t node) { return powerOf(sums, node); });
-  return toCut(sums, cut.nodes());
+  std::vector<size_t> nodes = cut.nodes();
+  LightCut out;
+  makeLightCut(sums, &nodes, &out);
+  return out;
 }
 
 }  // namespace lobelia::relight

@@ -32,6 +32,9 @@ struct LightCutSettings {
   size_t nodeCount = 512;     // at most; at least 1
   double errorShare = 0.002;  // root of a node's error over all light that is refined first
 };
+// The cut of these nodes (heap indices that cover all leaves once; they are put in order). Keeps
+// the memory of *out.
+void makeLightCut(const LightSums& sums, std::vector<size_t>* nodes, LightCut* out);
 LightCut selectLightCut(const LightSums& sums, const LightCutSettings& settings);
 
 }  // namespace lobelia::relight

@@ -52,6 +52,14 @@ std::vector<Gathered> atSamples(const DistantLight& light, const Mat4& turned,
 
 }  // namespace
 
+void LightSums::resize(int newLevels) {
+  levels = newLevels;
+  const size_t nodes = size_t{2} << levels;
+  powers.assign(nodes, {});
+  rows.assign(3 * nodes, 0.f);
+  for (AlignedFloats* values : {&x, &y, &z}) values->assign(nodes, 0.f);
+}
+
 LightSums lightSums(const DistantLight& light, const Mat4& turned, const LightSamples& samples,
                     const DirectionLookup& lookup) {
   const size_t count = samples.count();
@@ -65,15 +73,11 @@ LightSums lightSums(const DistantLight& light, const Mat4& turned, const LightSa
     plain[i] = plain[2 * i] + plain[2 * i + 1];
   }
   LightSums sums;
-  sums.levels = std::countr_zero(count);
-  sums.powers.resize(2 * count);
-  sums.rows.resize(3 * 2 * count);
-  for (AlignedFloats* values : {&sums.x, &sums.y, &sums.z}) values->resize(2 * count);
+  sums.resize(std::countr_zero(count));
   parallelFor(2 * count, 1024, [&](size_t i) {
     if (i == 0) return;
     const Gathered& node = nodes[i];
-    sums.powers[i].rgb = node.power;
-    for (size_t c = 0; c < 3; ++c) sums.rows[2 * count * c + i] = node.power[static_cast<int>(c)];
+    sums.setPower(i, node.power);
     Vec3f d = node.weighted;
     // Light from all around has no direction; neither does what has rounded away.
     if (!(lengthSquared(d) > 1e-30f)) d = plain[i];

@@ -30,6 +30,11 @@ struct LightSums {
   AlignedFloats rows;     // the same, red after red, then green and blue, for registers of nodes
   AlignedFloats x, y, z;  // unit direction: of the light, or of the samples where there is none
   Rgb power(size_t node) const { return powers[node].rgb; }
+  void setPower(size_t node, Rgb power) {
+    powers[node].rgb = power;
+    for (size_t c = 0; c < 3; ++c) rows[powers.size() * c + node] = power[static_cast<int>(c)];
+  }
+  void resize(int newLevels);  // all zero
   Vec3f direction(size_t node) const { return {x[node], y[node], z[node]}; }
 };
 

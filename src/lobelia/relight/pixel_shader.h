@@ -9,15 +9,10 @@
 
 #include "lobelia/path/emitter_sampling.h"
 #include "lobelia/relight/pixel_kernels.h"
+#include "lobelia/relight/tile_rays.h"
 #include "lobelia/relight/vertex_cache.h"
 
 namespace lobelia::relight {
-
-// Where a pixel lies among the vertices of a VertexCache.
-struct PixelPlace {
-  uint32_t slot[3];
-  float weight[3];
-};
 
 struct PixelCounts {
   uint64_t evaluations = 0;  // of lobes for directions

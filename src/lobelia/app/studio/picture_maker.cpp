@@ -22,8 +22,9 @@ int samplesOf(const PassMean& mean, int most) {
 
 std::vector<std::pair<std::string, double>> partsOf(const Statistics& statistics) {
   std::vector<std::pair<std::string, double>> parts;
-  for (const char* stage : {"prepare", "accel", "light", "buffer", "merge", "shade", "trace",
-                            "receivers", "lights", "trees", "traverse", "visibility"})
+  for (const char* stage :
+       {"prepare", "accel", "light", "buffer", "cut", "merge", "direct", "shade", "trace",
+        "receivers", "lights", "trees", "traverse", "visibility"})
     if (const double seconds = statistics.seconds(stage); seconds > 0)
       parts.emplace_back(stage, seconds);
   std::stable_sort(parts.begin(), parts.end(),
@@ -80,7 +81,7 @@ void PictureMaker::showCuts(Context& context) {
     accepted_ = design_;
     refusal_.clear();
   } catch (const InputError& e) {
-    if (stage_.data() == nullptr) throw;
+    if (!stage_.hasCuts()) throw;
     if (refusal_ != e.what())
       context.warning(std::string(e.what()) + "; cuts go on without, other methods show it");
     refusal_ = e.what();
@@ -133,8 +134,14 @@ std::shared_ptr<Picture> PictureMaker::frame(Context& context) {
   picture->film.layers.erase("direct");
   picture->film.layers.erase("indirect");
   if (view_.cost) picture->film.addLayer("cost", 1);
-  stage_.renderCuts(camera, design_->rotation, view_.lightCut,
-                    {.spp = view_.cutsSpp, .refined = view_.refined}, picture->film, context);
+  stage_.renderCuts(camera,
+                    {.spp = view_.cutsSpp,
+                     .lightCut = view_.lightCut,
+                     .rotation = design_->rotation,
+                     .plainLobes = !view_.refined,
+                     .areaPlaces = view_.areaPlaces,
+                     .component = view_.component},
+                    picture->film, context);
   picture->method = viewMethodNames()[static_cast<size_t>(ViewMethod::cuts)];
   return picture;
 }

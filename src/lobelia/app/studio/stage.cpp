@@ -34,21 +34,14 @@ void whiten(std::vector<Material>& materials) {
   }
 }
 
-std::optional<relight::VisibilityData> loadData(const std::string& file, const Scene& scene,
-                                                Context& context) {
-  if (file.empty()) return {};
-  const StageTimer timer(context, "data");
-  return relight::load(file, scene);
-}
-
 }  // namespace
 
-Stage::Stage(Scene scene, const std::string& data, Context& context)
+Stage::Stage(Scene scene, const std::vector<std::string>& data, Context& context)
     : scene_(std::move(scene)),
       hideEmitters_(scene_.hideEmitters),
       sceneImages_(scene_.images.size()),
       geometry_(relight::geometryHash(scene_)),
-      data_(loadData(data, scene_, context)),
+      data_(loadCutData(data, scene_, context)),
       tracedGeometry_(geometry_),
       masked_(hasMasks()),
       tracer_(std::make_unique<Tracer>(scene_, context)) {
@@ -86,11 +79,11 @@ bool Stage::fill(const Design& design, Use use) {
 }
 
 void Stage::requireCuts(uint64_t geometry, const Location& where) const {
-  if (!data_)
+  if (!hasCuts())
     throw InputError(where,
                      "there is no data of visibility; name it with --data, or choose "
                      "another method");
-  relight::requireKnownSides(*data_, scene_, where);
+  requireKnownSides(data_, scene_, where);
   if (geometry != geometry_)
     throw InputError(where,
                      "this changes which parts of surfaces are masked out, which the visibility "
@@ -129,10 +122,9 @@ void Stage::prepareRays(uint64_t geometry, bool masks) {
 void Stage::prepareLight(Context& context) {
   const StageTimer timer(context, "prepare");
   auto emitters = std::make_unique<EmitterSampler>(scene_, tracer_->bounds());
-  if (cuts_) {
+  if (hasCuts()) {
+    if (!cuts_) cuts_ = std::make_unique<CutFrames>(*tracer_, data_);
     cuts_->relight(*emitters);
-  } else if (data_) {
-    cuts_ = std::make_unique<relight::FrameRenderer>(*tracer_, *emitters, *data_);
   }
   emitters_ = std::move(emitters);
 }
@@ -167,12 +159,9 @@ void Stage::save(const std::string& file, const Design& first, const Camera& cam
   scene_.cameras = cameras;
 }
 
-void Stage::renderCuts(const Camera& camera, double rotation, size_t lightCut,
-                       const relight::FrameSettings& settings, Film& film, Context& context) {
-  relight::FrameSettings own = settings;
-  own.hideEmitters = scene_.hideEmitters;
-  const relight::FrameLight light = cuts_->light(rotation, {.nodeCount = lightCut}, context);
-  cuts_->render(light, camera, own, film, context);
+void Stage::renderCuts(const Camera& camera, const CutSettings& settings, Film& film,
+                       Context& context) {
+  cuts_->render(settings, camera, film, context);
 }
 
 Film Stage::renderPass(const Camera& camera, const RenderOptions& options, Context& context) {

@@ -9,23 +9,26 @@
 #include <optional>
 #include <string>
 
+#include "lobelia/app/cut_frames.h"
 #include "lobelia/app/studio/design.h"
 #include "lobelia/app/studio/view_state.h"
 #include "lobelia/film/film.h"
-#include "lobelia/relight/frame.h"
 
 namespace lobelia::app {
 
 class Stage {
  public:
-  // data: a file of `lobelia precompute`; "": no cuts. Throws InputError. Seconds: "accel", "data".
-  Stage(Scene scene, const std::string& data, Context& context);
+  // data: files of `lobelia precompute`; none: no cuts. Throws InputError, UsageError. Seconds:
+  // "accel", "data".
+  Stage(Scene scene, const std::vector<std::string>& data, Context& context);
   ~Stage();
 
   const Scene& scene() const { return scene_; }  // as it is shown now
   const Tracer& tracer() const { return *tracer_; }
   const EmitterSampler& emitters() const { return *emitters_; }
-  const relight::VisibilityData* data() const { return data_ ? &*data_ : nullptr; }
+  const CutData& data() const { return data_; }
+  bool hasCuts() const { return data_.any() != nullptr; }
+  int cutsDepth() const { return data_.surfaces ? 3 : 2; }  // of the light that cuts show
 
   // What pictures are to be made of. Cuts turn the light themselves and keep emitters as the design
   // has them.
@@ -42,8 +45,7 @@ class Stage {
   void save(const std::string& file, const Design& first, const Camera& camera);
 
   // A frame by cuts into the film's layer "" (and "cost"). Needs data and a design shown for cuts.
-  void renderCuts(const Camera& camera, double rotation, size_t lightCut,
-                  const relight::FrameSettings& settings, Film& film, Context& context);
+  void renderCuts(const Camera& camera, const CutSettings& settings, Film& film, Context& context);
   // A film of a pass by a progressive method, its picture composed. Throws Cancelled.
   Film renderPass(const Camera& camera, const RenderOptions& options, Context& context);
 
@@ -60,12 +62,12 @@ class Stage {
   const bool hideEmitters_;
   const size_t sceneImages_;
   const uint64_t geometry_;  // of the scene as read
-  std::optional<relight::VisibilityData> data_;
+  const CutData data_;
   uint64_t tracedGeometry_;  // what tracer_ is made of
   bool masked_;              // is any of it?
   std::unique_ptr<Tracer> tracer_;
   std::unique_ptr<EmitterSampler> emitters_;
-  std::unique_ptr<relight::FrameRenderer> cuts_;
+  std::unique_ptr<CutFrames> cuts_;
   std::vector<std::shared_ptr<StoredImage>> taken_;  // whose pixels the scene has
   std::shared_ptr<const Design> shown_;
   Use use_ = Use::paths;

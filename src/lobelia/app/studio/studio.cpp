@@ -20,19 +20,26 @@ std::string fileName(const std::string& file) {
   return std::filesystem::path(file).filename().string();
 }
 
+std::vector<std::string> inputsOf(const StudioSettings& settings) {
+  std::vector<std::string> files = settings.data;
+  files.insert(files.end(), {settings.scene.scene, settings.scene.environment});
+  return files;
+}
+
 }  // namespace
 
 Studio::Studio(const StudioSettings& settings, Context& context)
     : stage_(std::make_unique<Stage>(loadScene(settings.scene, context), settings.data, context)),
       seed_(settings.seed),
       strict_(settings.scene.strict),
-      inputs_{settings.scene.scene, settings.data, settings.scene.environment},
-      hasCuts_(stage_->data() != nullptr),
+      inputs_(inputsOf(settings)),
+      hasCuts_(stage_->hasCuts()),
       name_(stage_->scene().name),
       bounds_(stage_->tracer().bounds()),
       history_(designOf(stage_->scene())),
       first_(history_.share()) {
   view_.camera = history_.now().cameras.front();
+  view_.cutsDepth = stage_->cutsDepth();
   if (!hasCuts_) view_.method = ViewMethod::path;
   if (context.cancelled()) throw Cancelled{};
   thread_ = std::thread([this] { work(); });

@@ -24,7 +24,7 @@ namespace lobelia::app {
 
 struct StudioSettings {
   SceneOptions scene;
-  std::string data;  // of `lobelia precompute`; "": without cuts
+  std::vector<std::string> data;  // files of `lobelia precompute`; none: without cuts
   uint64_t seed = 0;
 };
 

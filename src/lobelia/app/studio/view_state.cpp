@@ -37,7 +37,8 @@ Camera viewCamera(const ViewState& view) {
 
 int depthOf(const ViewState& view) {
   constexpr int kDirect = 2;
-  return view.method == ViewMethod::cuts || view.white ? kDirect : view.maxDepth;
+  if (view.white) return kDirect;
+  return view.method == ViewMethod::cuts ? view.cutsDepth : view.maxDepth;
 }
 
 RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp) {
@@ -74,8 +75,9 @@ RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp) {
 bool samePicture(const ViewState& a, const ViewState& b) {
   return sameRays(a.camera, b.camera) && a.width == b.width && a.height == b.height &&
          a.method == b.method && a.lightCut == b.lightCut && a.refined == b.refined &&
-         a.cutsSpp == b.cutsSpp && a.cropped == b.cropped && a.lightCount == b.lightCount &&
-         a.maxDepth == b.maxDepth && a.cost == b.cost && a.white == b.white;
+         a.cutsSpp == b.cutsSpp && a.areaPlaces == b.areaPlaces && a.component == b.component &&
+         a.cropped == b.cropped && a.lightCount == b.lightCount && a.maxDepth == b.maxDepth &&
+         a.cost == b.cost && a.white == b.white;
 }
 
 bool sameTruth(const ViewState& a, const ViewState& b) {

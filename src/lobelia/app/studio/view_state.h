@@ -11,8 +11,8 @@
 
 namespace lobelia::app {
 
-// cuts: relight/frame.h, direct light from infinity in one go; the others are those of `render`,
-// pass by pass.
+// cuts: cut_frames.h, direct light from infinity, local light and one bounce of it in one go; the
+// others are those of `render`, pass by pass.
 enum class ViewMethod : uint8_t { cuts, path, sglc, vsl, vsgl };
 const std::vector<std::string>& viewMethodNames();  // in that order
 std::optional<ViewMethod> viewMethod(const std::string& name);
@@ -22,14 +22,17 @@ struct ViewState {
   int width = 0, height = 0;  // pixels; 0: nothing is drawn
   bool cropped = false;       // the camera's crop counts, which must lie within
   ViewMethod method = ViewMethod::cuts;
-  size_t lightCut = 512;    // cuts: nodes of the light's cut, at most
-  bool refined = true;      // cuts: finer light where lobes are narrow
-  int cutsSpp = 1;          // cuts: samples per pixel
-  int spp = 256;            // progressive: samples per pixel after which a picture is done
-  uint64_t lightCount = 0;  // sglc, vsl, vsgl: virtual lights of a pass; 0: a quick number
-  int maxDepth = 0;         // progressive; 0: the scene's
-  bool truth = false;       // the path-traced truth converges in the background
-  bool cost = false;        // pictures have the layer "cost"
+  size_t lightCut = 512;          // cuts: nodes of the light's cut, at most
+  bool refined = true;            // cuts: finer light where lobes are narrow
+  int cutsSpp = 1;                // cuts: samples per pixel
+  int areaPlaces = 4;             // cuts: of each area emitter, for shadow rays
+  std::string component = "all";  // cuts: or "direct", "indirect"
+  int spp = 256;                  // progressive: samples per pixel after which a picture is done
+  uint64_t lightCount = 0;        // sglc, vsl, vsgl: virtual lights of a pass; 0: a quick number
+  int maxDepth = 0;               // progressive; 0: the scene's
+  int cutsDepth = 2;              // of the light that cuts show; 3 with data of local lights
+  bool truth = false;             // the path-traced truth converges in the background
+  bool cost = false;              // pictures have the layer "cost"
   // Surfaces are white, so that the picture times pi is the irradiance (false_color.h).
   bool white = false;
 };
