@@ -1,7 +1,8 @@
-// What the files of the study `cuts` share: visibility cuts [P004] on any scenes lit from infinity.
+// What the files of the study `cuts` share: visibility cuts [P004] on any scenes.
 //
 //  bench_cuts.cpp        options, scenes, figures: the study itself
 //  bench_cuts_data.cpp   figure 9: size and time of the data, frames per second
+//  bench_cuts_local.cpp  figure 9: the same under local lights
 //  bench_cuts_error.cpp  figure 10: error of frames by the size of the light cut; and by sigma
 #pragma once
 
@@ -28,6 +29,7 @@ inline constexpr size_t kPaperLightCuts[] = {128, 256, 512};
 Film emptyFrame(const Camera& camera);
 
 void cutsData(const std::string& scene, const CutsStudy& study);
+void cutsLocalData(const std::string& scene, const CutsStudy& study);
 void cutsError(const std::string& scene, bool lightCuts, bool sigmas, const CutsStudy& study);
 
 }  // namespace lobelia::app
