@@ -186,7 +186,7 @@ TEST(BenchCuts, DataAndError) {
   const TemporaryFolder folder;
   const json result = runBench(
       "cuts --scene statue --detail 0.05 --size 48x36 --spp 32 --num-lights 2048 "
-      "-o " +
+      "--figures 9,10,sigma -o " +
       folder.path());
   const json& data = result["figure9"];
   expectNumbers(data, 2, {"vertices", "seconds", "mrays", "mb", "cut", "rms", "bytes"});
@@ -203,6 +203,17 @@ TEST(BenchCuts, DataAndError) {
   EXPECT_GT(sigma[0]["l2"], sigma[3]["l2"]);
   EXPECT_LT(sigma[0]["cut"], sigma[3]["cut"]);
   expectPictures(folder, "cuts", {"figure10-statue-path", "figure10-statue-512"});
+}
+
+TEST(BenchCuts, LocalLights) {
+  const json result = runBench(
+      "cuts --scene cornell --detail 0.05 --size 32x24 --num-lights 512 --figures 9-local");
+  const json& data = result["figure9_local"];
+  expectNumbers(data, 1,
+                {"vertices", "seconds", "cpu", "mrays", "mb", "cut", "rms", "fps128", "cpu128",
+                 "fps256", "cpu256", "fps512", "cpu512"});
+  EXPECT_LT(data[0]["rms"], 0.2);
+  EXPECT_GT(data[0]["fps128"], 0);
 }
 
 TEST(BenchVsl, MethodsSideBySide) {
