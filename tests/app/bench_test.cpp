@@ -252,6 +252,17 @@ TEST(BenchCuts, MaterialsOfOneVisibility) {
                   "figure6-statue-star-cuts", "figure6-statue-bump-cuts"});
 }
 
+TEST(BenchCuts, LocalLights) {
+  const json result = runBench(
+      "cuts --scene cornell --detail 0.05 --size 32x24 --num-lights 512 --figures 9-local");
+  const json& data = result["figure9_local"];
+  expectNumbers(data, 1,
+                {"vertices", "seconds", "cpu", "mrays", "mb", "cut", "rms", "fps128", "cpu128",
+                 "fps256", "cpu256", "fps512", "cpu512"});
+  EXPECT_LT(data[0]["rms"], 0.2);
+  EXPECT_GT(data[0]["fps128"], 0);
+}
+
 TEST(BenchVsl, MethodsSideBySide) {
   const TemporaryFolder folder;
   const json result = runBench("vsl --scene study-ggx --figures 1,2,6,7" +

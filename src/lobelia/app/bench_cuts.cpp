@@ -12,6 +12,7 @@ namespace lobelia::app {
 namespace {
 
 const std::vector<std::string> kScenes = {"statue", "machine", "plants"};
+const std::vector<std::string> kLocalScenes = {"dining", "teapot-lamp", "bedroom"};
 constexpr int kDirectLight = 2;  // --max-depth
 constexpr size_t kVertices = 1024;
 
@@ -57,7 +58,7 @@ Film emptyFrame(const Camera& camera) {
 }
 
 const std::vector<std::string>& cutsFigures() {
-  static const std::vector<std::string> figures{"5", "6", "8", "9", "10", "sigma"};
+  static const std::vector<std::string> figures{"5", "6", "8", "9", "9-local", "10", "sigma"};
   return figures;
 }
 
@@ -75,6 +76,15 @@ std::vector<BenchTable> benchCuts(const BenchOptions& options, Context& context)
       const bool lightCuts = figures.contains("10"), sigmas = figures.contains("sigma");
       if ((lightCuts || sigmas) && !context.cancelled()) cutsError(scene, lightCuts, sigmas, study);
     } catch (const Cancelled&) {  // the tables have what there is
+    }
+    report.writePage(options.commandLine);
+  }
+  if (figures.contains("9-local") && !context.cancelled()) {
+    for (const std::string& scene : options.scenes.empty() ? kLocalScenes : options.scenes) {
+      try {
+        if (!context.cancelled()) cutsLocalData(scene, study);
+      } catch (const Cancelled&) {  // the table has what there is
+      }
     }
     report.writePage(options.commandLine);
   }

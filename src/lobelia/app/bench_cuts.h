@@ -1,4 +1,4 @@
-// What the files of the study `cuts` share: visibility cuts [P004] on any scenes lit from infinity.
+// What the files of the study `cuts` share: visibility cuts [P004] on any scenes.
 //
 //  bench_cuts.cpp           options, scenes, figures: the study itself
 //  bench_cuts_vertices.h    what some vertices see of any directions, for figures 5 and 8
@@ -7,6 +7,7 @@
 //  bench_cuts_materials.cpp figure 6: an object in many materials (bench_cuts_designs.h)
 //  bench_cuts_frames.h      frames for figures 6 and 10
 //  bench_cuts_data.cpp      figure 9: size and time of the data, frames per second
+//  bench_cuts_local.cpp     figure 9: the same under local lights
 //  bench_cuts_error.cpp     figure 10: error of frames by the size of the light cut; and by sigma
 #pragma once
 
@@ -38,6 +39,7 @@ void cutsClusters(const std::string& scene, const Tracer& tracer, const StudyVer
 void cutsWavelets(const std::string& scene, const StudyVertices& vertices, const CutsStudy& study);
 void cutsMaterials(const std::string& scene, const CutsStudy& study);
 void cutsData(const std::string& scene, const CutsStudy& study);
+void cutsLocalData(const std::string& scene, const CutsStudy& study);
 void cutsError(const std::string& scene, bool lightCuts, bool sigmas, const CutsStudy& study);
 
 }  // namespace lobelia::app

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "lobelia/app/bench_cuts.h"
 #include "lobelia/app/load_scene.h"
+#include "lobelia/app/temporary_file.h"
 
 namespace lobelia::app {
 namespace {
@@ -15,25 +15,6 @@ namespace {
 constexpr float kSigma = 1.2f;  // of a node: the RMS errors are about the paper's
 constexpr int kFrames = 12;
 constexpr float kMetrics[] = {1, 0.45f};  // beta
-
-// A file that is there while this is.
-class TemporaryFile {
- public:
-  TemporaryFile()
-      : path_((std::filesystem::temp_directory_path() /
-               fmt::format("lobelia-cuts-{}", nanosecondsNow()))
-                  .string()) {}
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 double secondsSince(int64_t start) { return 1e-9 * static_cast<double>(nanosecondsNow() - start); }
 

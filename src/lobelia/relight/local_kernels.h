@@ -11,7 +11,9 @@ namespace lobelia::relight {
 // Light that arrives at a pixel from nodes of some extent.
 struct NearLight : DirectedLight {
   AlignedFloats widening;  // of squared roughness, by node (sumWidenedLobe())
-  void reserve(size_t chunks) {
+  // One more chunk: registers are stored whole.
+  void reserve(size_t most) {
+    const size_t chunks = most + 1;
     DirectedLight::reserve(chunks);
     if (widening.size() < chunks * kChunk) widening.resize(chunks * kChunk, 0.f);
   }
@@ -35,8 +37,8 @@ struct NearLights {
   float softening = 0;
 };
 
-// Fills *out, which has to have room, with those of the chunks that have light for a place p:
-// radiance times solid angle from each node in front of the surface that faces p. normal:
+// Fills *out, which has to have room, with those nodes of the chunks, packed, that have light for a
+// place p: radiance times solid angle from each node in front of the surface that faces p. normal:
 // geometric, on the side of the eye.
 void gatherNearLight(const NearLights& lights, std::span<const uint32_t> chunks, Vec3f p,
                      Vec3f normal, NearLight* out);

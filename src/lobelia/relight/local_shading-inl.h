@@ -29,11 +29,10 @@ inline void gatherNearLight(const relight::NearLights& lights, std::span<const u
   const V3<Vf> p{Vf(place.x), Vf(place.y), Vf(place.z)};
   const V3<Vf> n{Vf(normal.x), Vf(normal.y), Vf(normal.z)};
   const Vf softening(lights.softening), zero(0.f), least(0.5f * std::sqrt(lights.softening));
-  float* const light[3] = {out->r.data(), out->g.data(), out->b.data()};
-  out->chunkCount = 0;
-  for (const uint32_t chunk : chunks) {
-    const size_t to = out->chunkCount * relight::kChunk;
-    uint32_t lit = 0;
+  float* const to[7] = {out->x.data(), out->y.data(), out->z.data(),       out->r.data(),
+                        out->g.data(), out->b.data(), out->widening.data()};
+  size_t count = 0;  // of nodes with light, packed: lobes then see full registers
+  for (const uint32_t chunk : chunks)
     for (size_t lane = 0; lane < relight::kChunk; lane += kLanes) {
       const size_t at = size_t{chunk} * relight::kChunk + lane;
       const V3<Vf> straight = loadVector(lights.place, at) - p;
@@ -47,28 +46,27 @@ inline void gatherNearLight(const relight::NearLights& lights, std::span<const u
       const Vf facing = Vf(0.5f) * (cosine + sqrt(cosine * cosine + variance));
       // What is left of nodes that face away is not worth a lobe.
       const Mf front = (dot(v, n) > zero) & (facing > min(variance, Vf(0.02f)));
-      if (!any(front)) {
-        for (float* values : light) zero.store(values + to + lane);
-        continue;
-      }
-      const Vf geometry = select(front, facing / (d2 + softening), zero);
-      Mf some = front;
-      for (size_t c = 0; c < 3; ++c) {
-        const Vf value = interpolatedRow(lights, c, at) * geometry;
-        value.store(light[c] + to + lane);
-        some = c == 0 ? value != zero : some | (value != zero);
-      }
-      lit |= maskBits(some) << lane;
-      (v.x * inverse).store(out->x.data() + to + lane);
-      (v.y * inverse).store(out->y.data() + to + lane);
-      (v.z * inverse).store(out->z.data() + to + lane);
-      (Vf(0.25f) * (Vf::load(lights.extent2 + at) + Vf(5.f) * softening) / d2)
-          .store(out->widening.data() + to + lane);
+      if (!any(front)) continue;
+      const Vf geometry = facing / (d2 + softening);
+      const Vf r = interpolatedRow(lights, 0, at), g = interpolatedRow(lights, 1, at),
+               b = interpolatedRow(lights, 2, at);
+      const Mf lit = front & ((r != zero) | (g != zero) | (b != zero));
+      const Vf values[7] = {v.x * inverse,
+                            v.y * inverse,
+                            v.z * inverse,
+                            r * geometry,
+                            g * geometry,
+                            b * geometry,
+                            Vf(0.25f) * (Vf::load(lights.extent2 + at) + Vf(5.f) * softening) / d2};
+      size_t added = 0;
+      for (size_t i = 0; i < 7; ++i)
+        added = hn::CompressStore(values[i].v, lit.m, Df(), to[i] + count);
+      count += added;
     }
-    if (lit == 0) continue;
-    out->chunk[out->chunkCount] = chunk;
-    out->lit[out->chunkCount++] = static_cast<uint16_t>(lit);
-  }
+  out->chunkCount = (count + relight::kChunk - 1) / relight::kChunk;
+  for (size_t chunk = 0; chunk < out->chunkCount; ++chunk) out->lit[chunk] = 0xffff;
+  if (count % relight::kChunk != 0)
+    out->lit[out->chunkCount - 1] = static_cast<uint16_t>((1u << count % relight::kChunk) - 1);
 }
 
 // alpha, or an exponent of Phong's, widened (bsdf's alpha of half vectors: lobe_reach.cpp).

@@ -18,9 +18,9 @@ constexpr float kBroad = 0.5f;  // roughness of lobes that nodes of a cut are na
 
 bool needsWidening(const Lobe& lobe) { return !isDiffuse(lobe.type) && roughness(lobe) < kBroad; }
 
-// Of coats, which reflect some hundredths, all but a thirtieth suffices; metals' tails are seen.
+// Of coats, which reflect some hundredths, all but a twentieth suffices; metals' tails are seen.
 float reachOf(const Lobe& lobe) {
-  return lobe.fresnel == Fresnel::dielectric ? 8 * std::sqrt(2.f) * roughness(lobe) : 2.f;
+  return lobe.fresnel == Fresnel::dielectric ? 6 * std::sqrt(2.f) * roughness(lobe) : 2.f;
 }
 
 // Reads the clock and adds what has passed.

@@ -79,16 +79,19 @@ const std::map<std::string, CommandTexts>& texts() {
        {"Opens a window in which materials, lights and camera are changed by hand, or, with "
         "--headless, draws frames into files.\n\n"
         "Pictures come from precomputed visibility (--data): light from infinity (environments, "
-        "suns, directional emitters) that arrives straight at the first surface. Light, materials "
-        "and camera may be other ones than before; the geometry may not. Lights at finite places "
-        "are seen but light nothing; of materials that transmit light only reflections are shown. "
-        "In the window, and in scripts, the methods of `render` draw all light, pass by pass.",
+        "suns, directional emitters) that arrives straight at the first surface, and light of "
+        "lamps in the scene with one bounce of it, each by data of its own. Light, materials and "
+        "camera may be other ones than before; the geometry may not. Of materials that transmit "
+        "light only reflections are shown. In the window, and in scripts, the methods of `render` "
+        "draw all light, pass by pass.",
         {{"DATA", "Visibility cuts of the scene's vertices"},
          {"*.exr", "Scene-linear RGB (sRGB primaries, 32-bit float), and metadata"},
          {"*.png", "Tone-mapped by Reinhard's global operator, sRGB"}},
         {{"lobelia view machine --data machine.cuts", "The window"},
          {"lobelia view teapot --sky 3,1,0.5,1 --data teapot.cuts --headless -o teapot.png",
           "One picture under sun and sky"},
+         {"lobelia view cornell --data cornell.cuts --headless -o cornell.png",
+          "Lamps and one bounce of their light, by data of --light surfaces"},
          {"lobelia view scene.xml --data scene.cuts --headless --frames 36 --rotate-step 10 -o "
           "turn%02d.exr",
           "The environment turns once around the scene"},
