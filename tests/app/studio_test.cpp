@@ -13,6 +13,8 @@
 #include "lobelia/base/random.h"
 #include "lobelia/film/metrics.h"
 #include "lobelia/io/image_io.h"
+#include "lobelia/io/scene_io.h"
+#include "lobelia/relight/precompute.h"
 
 namespace lobelia::app {
 namespace {
@@ -43,14 +45,20 @@ class StudioTest : public testing::Test {
   void SetUp() override { writeText(file("scene.xml"), kScene); }
   std::string file(const std::string& name) const { return folder_ / name; }
 
+  void precompute() const {
+    Context context;
+    const Scene scene = io::readScene(file("scene.xml"), {}, context);
+    const Tracer tracer(scene, context);
+    relight::PrecomputeSettings settings;
+    settings.sampleCount = 512, settings.clusterCount = 16;
+    relight::save(relight::precomputeVisibility(tracer, settings, context), scene, file("data"));
+  }
+
   std::unique_ptr<Studio> open(bool cuts) {
     StudioSettings settings;
     settings.scene.scene = file("scene.xml");
     if (cuts) {
-      const test::ProgramResult r =
-          runProgram("precompute " + file("scene.xml") +
-                     " --method cuts --samples 512 --clusters 16 --quiet -o " + file("data"));
-      EXPECT_EQ(r.exitCode, 0) << r.err;
+      precompute();
       settings.data = file("data");
     }
     Context context;
