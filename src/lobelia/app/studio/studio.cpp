@@ -77,7 +77,13 @@ void Studio::loadEnvironment(const std::string& file) {
 }
 
 void Studio::loadTexture(const std::string& file, uint32_t material, const std::string& word) {
-  const FieldKind kind = findField(design(), material, word, {}).field->kind;
+  FieldKind kind;
+  try {
+    requireMaterial(design(), material);
+    kind = findField(design(), material, word, {}).field->kind;
+  } catch (const InputError& e) {
+    return desk_.message(Severity::error, e.what());
+  }
   desk_.give([=, this](Stage&, Context&) {
     const auto image = readImageFile(file, kind != FieldKind::color);
     desk_.arrive({word + " by " + fileName(file),
