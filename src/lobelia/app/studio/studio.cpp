@@ -233,7 +233,7 @@ void Studio::workOn(PictureMaker& maker) {
   using Step = PictureMaker::Step;
   const Step step = maker.next();
   Context context(&desk_);
-  if (!desk_.begin(context, step == Step::frame || step == Step::look)) return;
+  if (!desk_.begin(context, maker.isFirst(step))) return;
   try {
     const std::shared_ptr<const Picture> picture = maker.run(step, context);
     desk_.end();
