@@ -26,6 +26,12 @@ std::vector<std::string> inputsOf(const StudioSettings& settings) {
   return files;
 }
 
+// Of one that an edit added and another has taken away.
+void requireMaterial(const Design& design, uint32_t material) {
+  if (material >= design.materials.size())
+    throw InputError({}, "the material that the file was for is not there any more");
+}
+
 }  // namespace
 
 Studio::Studio(const StudioSettings& settings, Context& context)
@@ -78,35 +84,49 @@ void Studio::loadEnvironment(const std::string& file) {
 }
 
 void Studio::loadTexture(const std::string& file, uint32_t material, const std::string& word) {
-  const FieldPlace place = findField(design(), material, word, {});
-  desk_.give([this, file, place](Stage&, Context&) {
-    const auto image = readImageFile(file, place.field->kind != FieldKind::color);
-    desk_.arrive({fmt::format("{} by {}", place.field->label, fileName(file)),
+  FieldKind kind;
+  try {
+    requireMaterial(design(), material);
+    kind = findField(design(), material, word, {}).field->kind;
+  } catch (const InputError& e) {
+    return desk_.message(Severity::error, e.what());
+  }
+  desk_.give([=, this](Stage&, Context&) {
+    const auto image = readImageFile(file, kind != FieldKind::color);
+    desk_.arrive({word + " by " + fileName(file),
                   nullptr,
-                  [image, place](Design& d) {
+                  [=](Design& d) {
+                    requireMaterial(d, material);
+                    const FieldPlace place = findField(d, material, word, {});
                     const TextureHandle texture = addBitmap(d, image);
-                    setFieldTexture(d.materials.at(place.material), *place.field, texture);
+                    setFieldTexture(d.materials[place.material], *place.field, texture);
                   },
                   {}});
   });
 }
 
 void Studio::loadBump(const std::string& file, uint32_t material, float scale) {
-  desk_.give([this, file, material, scale](Stage&, Context&) {
+  desk_.give([=, this](Stage&, Context&) {
     const auto image = readImageFile(file, true);
     desk_.arrive({"bump map " + fileName(file),
                   nullptr,
-                  [=](Design& d) { setBump(d, material, addBitmap(d, image), scale); },
+                  [=](Design& d) {
+                    requireMaterial(d, material);
+                    setBump(d, material, addBitmap(d, image), scale);
+                  },
                   {}});
   });
 }
 
 void Studio::loadNormalMap(const std::string& file, uint32_t material) {
-  desk_.give([this, file, material](Stage&, Context&) {
+  desk_.give([=, this](Stage&, Context&) {
     const auto image = readImageFile(file, true);
     desk_.arrive({"normal map " + fileName(file),
                   nullptr,
-                  [=](Design& d) { setNormalMap(d, material, addBitmap(d, image)); },
+                  [=](Design& d) {
+                    requireMaterial(d, material);
+                    setNormalMap(d, material, addBitmap(d, image));
+                  },
                   {}});
   });
 }
@@ -220,7 +240,7 @@ void Studio::workOn(PictureMaker& maker) {
   using Step = PictureMaker::Step;
   const Step step = maker.next();
   Context context(&desk_);
-  if (!desk_.begin(context, step == Step::frame || step == Step::look)) return;
+  if (!desk_.begin(context, maker.isFirst(step))) return;
   try {
     const std::shared_ptr<const Picture> picture = maker.run(step, context);
     desk_.end();

@@ -69,7 +69,8 @@ class Studio {
   // Files, read and written by the worker in the order of these calls. What is read becomes an edit
   // by update(); what fails, a message.
   void loadEnvironment(const std::string& file);
-  // place: of the design (fieldPlaces()); its values are read as numbers unless it is a colour.
+  // word: of a field of the material or of what it wraps (fieldPlaces(), prefix and word); the
+  // image is read as numbers unless it is a colour.
   void loadTexture(const std::string& file, uint32_t material, const std::string& word);
   void loadBump(const std::string& file, uint32_t material, float scale);
   void loadNormalMap(const std::string& file, uint32_t material);
