@@ -1,5 +1,5 @@
-// Scripts of `lobelia view`, and their edits of a scene of a few materials and lights: whatever they
-// say, the scene stays one that can be rendered, and all of it can be undone.
+// Scripts of `lobelia view`, and their edits of a scene of a few materials and lights: whatever
+// they say, the scene stays one that can be rendered, and all of it can be undone.
 #include <algorithm>
 
 #include "fuzz/fuzz_file.h"
@@ -44,12 +44,14 @@ void requireSound(const Design& design) {
 void play(const std::string& file, const Scene& scene) {
   History history(designOf(scene));
   const std::shared_ptr<const Design> first = history.share();
+  size_t edits = 0;
   for (const ScriptStep& step : readScript(file)) {
     if (step.kind == ScriptStep::Kind::undo) history.undo();
     if (step.kind == ScriptStep::Kind::redo) history.redo();
     if (!isEdit(step.kind)) continue;
     try {
       history.edit(editName(step), [&](Design& d) { applyEdit(step, d); });
+      ++edits;
     } catch (const InputError&) {
       // was said; later lines are tried as well
     }
@@ -57,7 +59,7 @@ void play(const std::string& file, const Scene& scene) {
   }
   while (history.undo()) {
   }
-  if (history.share() != first) std::abort();
+  if (edits <= History::kMostSteps && history.share() != first) std::abort();
 }
 
 }  // namespace
@@ -66,13 +68,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const fuzz::FuzzFile file("script.txt");
   static const Scene scene = smallScene();
   static const bool image = [] {
-    fuzz::singleThreadedImages();
-    const std::string path = file.write(nullptr, 0);
+    const std::string path = file.write(reinterpret_cast<const uint8_t*>("frame"), 5);
     const std::string folder = std::filesystem::path(path).parent_path().string();
     io::writePng(folder + "/a.png", std::vector<uint8_t>{1, 2, 3}, 1, 1);
     return true;
   }();
-  return image ? fuzz::check(file, data, size,
-                             [](const std::string& path) { play(path, scene); })
+  return image ? fuzz::check(file, data, size, [](const std::string& path) { play(path, scene); })
                : 0;
 }

@@ -13,6 +13,8 @@
 #include "lobelia/base/random.h"
 #include "lobelia/film/metrics.h"
 #include "lobelia/io/image_io.h"
+#include "lobelia/io/scene_io.h"
+#include "lobelia/relight/precompute.h"
 
 namespace lobelia::app {
 namespace {
@@ -43,14 +45,20 @@ class StudioTest : public testing::Test {
   void SetUp() override { writeText(file("scene.xml"), kScene); }
   std::string file(const std::string& name) const { return folder_ / name; }
 
+  void precompute() const {
+    Context context;
+    const Scene scene = io::readScene(file("scene.xml"), {}, context);
+    const Tracer tracer(scene, context);
+    relight::PrecomputeSettings settings;
+    settings.sampleCount = 512, settings.clusterCount = 16;
+    relight::save(relight::precomputeVisibility(tracer, settings, context), scene, file("data"));
+  }
+
   std::unique_ptr<Studio> open(bool cuts) {
     StudioSettings settings;
     settings.scene.scene = file("scene.xml");
     if (cuts) {
-      const test::ProgramResult r =
-          runProgram("precompute " + file("scene.xml") +
-                     " --method cuts --samples 512 --clusters 16 --quiet -o " + file("data"));
-      EXPECT_EQ(r.exitCode, 0) << r.err;
+      precompute();
       settings.data = file("data");
     }
     Context context;
@@ -153,6 +161,7 @@ TEST_F(StudioTest, StandsThousandsOfRapidEdits) {
   studio->setView(sized(studio->view()));
   Rng random(5);
   const uint32_t m = paint(*studio);
+  const Material original = studio->design().materials[m];
   const auto types = simpleTypes();
   for (int i = 0; i < 4000; ++i) {
     switch (random.nextUint() % 8) {
@@ -195,13 +204,29 @@ TEST_F(StudioTest, StandsThousandsOfRapidEdits) {
       studio->newestPicture();
     }
   }
-  while (studio->history().canUndo()) studio->undo();
+  studio->edit("as it was", [&](Design& d) { d.materials[m] = original, d.rotation = 0; });
   ViewState view = sized(studio->view());
   view.method = ViewMethod::cuts, view.truth = false;
   studio->setView(view);
   ASSERT_TRUE(settle(*studio));
+  ASSERT_NE(studio->newestPicture(), nullptr) << said(*studio);
   EXPECT_EQ(studio->newestPicture()->film.width, 16);
   EXPECT_EQ(countNonFinite(studio->newestPicture()->film), 0u);
+}
+
+// The first edit, before there was any picture.
+TEST_F(StudioTest, CutsShowTheSceneWhereTheyHaveShownNothing) {
+  const auto studio = open(true);
+  const uint32_t m = paint(*studio);
+  studio->edit("glass", [&](Design& d) { changeType(d, m, MaterialType::dielectric); });
+  studio->setView(sized(studio->view()));
+  ASSERT_TRUE(settle(*studio));
+  EXPECT_NE(said(*studio).find("from behind"), std::string::npos);
+  ASSERT_NE(studio->newestPicture(), nullptr);
+  const auto refused = studio->newestPicture();
+  studio->undo();
+  ASSERT_TRUE(settle(*studio));
+  EXPECT_EQ(studio->newestPicture()->film.layers.at("").values, refused->film.layers.at("").values);
 }
 
 TEST_F(StudioTest, EndsInTheMiddleOfAPass) {
@@ -254,14 +279,18 @@ TEST_F(StudioTest, MissingFilesAreMessages) {
   studio->loadDesign(file("none.xml"));
   studio->saveDesign(file("no/folder/design.xml"));
   studio->screenshot(file("picture.exr"), {});
+  studio->saveDesign(file("scene.xml"));
   writeText(file("noimage.exr"), "no image");
   studio->loadEnvironment(file("noimage.exr"));
   ASSERT_TRUE(loopUntil(*studio, [&] { return studio->openFiles() == 0; }));
   const auto messages = studio->takeMessages();
-  ASSERT_EQ(messages.size(), 7u);
+  ASSERT_EQ(messages.size(), 8u);
   for (const StudioMessage& m : messages) EXPECT_EQ(m.severity, Severity::error) << m.text;
   EXPECT_NE(messages[0].text.find("none.exr"), std::string::npos) << messages[0].text;
   EXPECT_NE(messages[5].text.find("no picture"), std::string::npos) << messages[5].text;
+  EXPECT_THROW(studio->loadTexture(file("none.png"), paint(*studio), "alpha"), InputError);
+  EXPECT_NE(messages[6].text.find("over what is read"), std::string::npos) << messages[6].text;
+  EXPECT_EQ(readText(file("scene.xml")), kScene);
   EXPECT_EQ(studio->history().share(), before);
 }
 

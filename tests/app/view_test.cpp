@@ -254,5 +254,111 @@ TEST_F(View, ScriptsSayWhatIsWrongAndWhere) {
   expectFailure(command("--frames 2 --script " + file("bad.txt"), "x.exr"), 2, "--script");
 }
 
+// All that a person does in the window, and the same design again by other commands.
+TEST_F(View, ScriptsEditUndoAndSave) {
+  write(R"(<bsdf type="roughconductor" id="my paint"><float name="alpha" value="0.2"/></bsdf>)",
+        kSky);
+  precompute();
+  view("", "sky.exr");
+  writeText(
+      file("script.txt"),
+      "frame\n"
+      "material \"my paint\" alpha 0.4\nmaterial \"my paint\" specular_reflectance 0.9,0.5,0.1\n"
+      "material \"my paint\" type principled\ntexture \"my paint\" base_color sky.exr\n"
+      "bump \"my paint\" sky.exr 0.02\nmaterial material[0] reflectance 0.2\n"
+      "emitter emitter[0] strength 2\nlight add directional 0,-1,-0.3 1,1,1 beam\n"
+      "emitter beam color 1,0.5,0.5\nturn 40\nsave out.xml\nframe\n"
+      "undo\nundo\nundo\nundo\nundo\nundo\nundo\nundo\nundo\nundo\nframe\n"
+      "redo\nredo\nredo\nredo\nredo\nredo\nredo\nredo\nredo\nredo\nframe\n");
+  const ProgramResult r = runProgram(command("--script " + file("script.txt"), "s%d.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const auto values = [&](int frame) {
+    return io::readFilm(file("s" + std::to_string(frame) + ".exr")).layers.at("").values;
+  };
+  EXPECT_NE(values(0), values(1));
+  EXPECT_EQ(values(2), values(0)) << "undone";
+  EXPECT_EQ(values(3), values(1)) << "done again";
+  // The light is turned as a whole, to the last bits or nearly.
+  const Film saved = view("--design " + file("out.xml"), "saved.exr");
+  EXPECT_LT(compare(io::readFilm(file("s1.exr")), saved).l2, 1e-4);
+  const ProgramResult rendered =
+      runProgram("render " + file("scene.xml") + " --design " + file("out.xml") +
+                 " --lights path --max-depth 2 --spp 64 --quiet -o " + file("path.exr"));
+  ASSERT_EQ(rendered.exitCode, 0) << rendered.err;
+  EXPECT_NEAR(compare(io::readFilm(file("path.exr")), saved).meanRatio, 1, 0.05);
+}
+
+TEST_F(View, ScriptsChooseMethodsAndShowErrors) {
+  write(R"(<bsdf type="diffuse" id="paint"/>)", kSky);
+  writeText(file("script.txt"),
+            "method path 3\nframe 2\nmaterial paint type dielectric\nframe\ntruth 6\n"
+            "false-colour error\nsplit 0.5\nscreenshot error.png\nfalse-colour illuminance 0 4\n"
+            "frame\nscreenshot light.png\nfalse-colour cost\nmethod sglc\nframe\n"
+            "screenshot cost.png\nscreenshot cost.exr\n");
+  const std::string play =
+      "view " + file("scene.xml") + " --headless --quiet --script " + file("script.txt") + " -o ";
+  for (const char* threads : {"1", "3"}) {
+    const ProgramResult r =
+        runProgram(play + file(threads) + std::string("%d.exr --threads ") + threads);
+    ASSERT_EQ(r.exitCode, 0) << r.err;
+  }
+  const auto values = [&](const std::string& name) {
+    return io::readFilm(file(name)).layers.at("").values;
+  };
+  for (const char* frame : {"0", "1", "2", "3", "4"})
+    EXPECT_EQ(values(std::string("1") + frame + ".exr"), values(std::string("3") + frame + ".exr"))
+        << frame;
+  EXPECT_EQ(values("10.exr"), values("11.exr")) << "frames begin anew";
+  EXPECT_NE(values("11.exr"), values("12.exr"));
+  EXPECT_TRUE(io::readFilm(file("cost.exr")).layers.contains("cost"));
+  for (const char* name : {"error.png", "light.png", "cost.png"})
+    EXPECT_EQ(io::readImage(file(name), {}).width, 32) << name;
+}
+
+TEST_F(View, ScriptsSayWhatIsWrongWithEdits) {
+  write(R"(<bsdf type="roughconductor" id="paint"/>)", kSky);
+  precompute();
+  const auto refused = [&](const std::string& line, const std::string& mentions) {
+    writeText(file("bad.txt"), "frame\n" + line + "\nframe\n");
+    const std::string all = command("--script " + file("bad.txt"), "x%d.exr");
+    expectFailure(all, 3, mentions);
+    expectFailure(all, 3, "bad.txt:2");
+  };
+  refused("material pain alpha 0.1", "did you mean 'paint'");
+  refused("material paint alhpa 0.1", "did you mean 'alpha'");
+  refused("material paint alpha much", "not a finite number");
+  refused("material paint alpha 3", "from 0.0001 to 1");
+  refused("material paint distribution gx", "did you mean 'ggx'");
+  refused("material paint type gold", "it may be diffuse");
+  refused("material paint", "material NAME FIELD VALUE");
+  refused("material \"paint alpha 1", "not closed");
+  refused("material paint type dielectric", "from behind");
+  refused("texture paint distribution scene.xml", "cannot be a texture");
+  refused("texture paint alpha none.png", "none.png");
+  refused("texture paint alpha scene.xml", "scene.xml");
+  refused("bump paint none.png", "none.png");
+  refused("emitter lamp strength 1", "emitter[0]");
+  refused("emitter emitter[0] position 1,2,3", "no 'position'");
+  refused("emitter emitter[0] strength -1", "from 0");
+  refused("light add area 0,0,0 1,1,1", "it may be point");
+  refused("light remove emitter[0]", "stays");
+  refused("undo", "nothing to undo");
+  refused("redo", "nothing to do again");
+  refused("method paths", "did you mean 'path'");
+  refused("false-colour red", "luminance");
+  refused("false-colour cost 1", "two numbers");
+  refused("split 2", "from 0 to 1");
+  refused("truth 0", "a number from 1");
+  refused("save none/x.xml", "there is no folder");
+  refused("save scene.xml", "over what is read");
+  refused("screenshot x.gif", ".exr or .png");
+  writeText(file("bad.txt"), "screenshot x.png\nframe\n");
+  expectFailure(command("--script " + file("bad.txt"), "x.exr"), 3, "there is no picture yet");
+  writeText(file("bad.txt"), "frame\n");
+  expectFailure("view " + file("scene.xml") + " --headless --script " + file("bad.txt") + " -o " +
+                    file("x.exr"),
+                3, "--data");
+}
+
 }  // namespace
 }  // namespace lobelia::test

@@ -45,7 +45,8 @@ void requireView(const ViewOptions& options) {
 
 void addViewOptions(CLI::App& c, ViewOptions& o) {
   addSceneOptions(c, o.render.scene);
-  c.add_option("--data", o.data, "Visibility of the scene, by `lobelia precompute`")
+  c.add_option("--data", o.data,
+               "Visibility of the scene, by `lobelia precompute`; needed for cuts")
       ->type_name("FILE");
   c.add_option("--ui-script", o.uiScript,
                "Plays mouse and keys at the window, then closes it (docs/manual.md)")

@@ -51,6 +51,20 @@ Design turnedDesign(const Scene& scene, double degrees) {
   return design;
 }
 
+// Where the script would write over what the run reads.
+void requireOwnFiles(const std::vector<ScriptStep>& script, const ViewOptions& options) {
+  const SceneOptions& scene = options.render.scene;
+  for (const ScriptStep& step : script) {
+    if (step.kind != Kind::save && step.kind != Kind::screenshot) continue;
+    try {
+      requireNoInput({step.file},
+                     {options.data, options.script, scene.scene, scene.design, scene.environment});
+    } catch (const UsageError& e) {
+      throw InputError(step.where, e.what());
+    }
+  }
+}
+
 [[noreturn]] void throwUnknown(const char* what, const std::string& name,
                                const std::vector<std::string>& known, const Location& where) {
   throw InputError(where, fmt::format("{} '{}' is not known{}; there are {}", what, name,
@@ -68,7 +82,8 @@ ViewFrames::ViewFrames(const ViewOptions& options, const std::string& commandLin
       plan_(planFrames(stage_.scene(), options.render, true)),
       history_(turnedDesign(stage_.scene(), options.rotate)),
       first_(history_.share()),
-      maker_(stage_, options.render.seed) {
+      maker_(stage_, first_, options.render.seed) {
+  requireOwnFiles(script_, options);
   if (stage_.data() != nullptr) warnOfMissing(stage_.scene(), context_);
   view_.lightCut = options.lightCut;
   view_.refined = !options.plainLobes;

@@ -86,6 +86,9 @@ void takeFile(const Command& command, const std::filesystem::path& folder, Scrip
   std::error_code none;
   if (command.reads && !std::filesystem::is_regular_file(step.file, none))
     throw InputError(step.where, fmt::format("there is no file '{}'", step.file));
+  const std::filesystem::path parent = std::filesystem::path(step.file).parent_path();
+  if (!command.reads && !parent.empty() && !std::filesystem::is_directory(parent, none))
+    throw InputError(step.where, fmt::format("there is no folder '{}'", parent.string()));
 }
 
 // Of the line's words but the first.

@@ -1,7 +1,9 @@
 // Designs: small files of changes to a scene, of any format, that are applied when it is read.
 //
 // A design is a Mitsuba scene without shapes; what it has takes the place of what the scene has:
-//  - <bsdf id="NAME">: the material of that name;
+//  - <bsdf id="NAME">: the material of that name; a <ref id="NAME"/> inside it, where nothing in
+//  the
+//    design is called so, is the scene's material of that name;
 //  - <emitter>: an environment (constant, envmap, sky) that of the scene (the first, of several); a
 //    sun that of the scene; others the emitter that has their id as its name (area emitters their
 //    radiance), or a new one;
@@ -29,14 +31,15 @@ DesignParts applyDesign(const std::string& file, const ReadSettings& settings, S
 // `before` makes the same of it, bit for bit. `before`: the scene as read, of which textures and
 // images need not be there; `now`: with all of them, the first of each those of `before`. Images
 // are named where they came from, relative to the file, when they are read as the same from there;
-// others are written into a folder beside it (FILE without suffix, "_textures"). Wrapped materials
-// that changed stand within the named ones around them. Throws RuntimeError; then there is no such
-// file.
+// others are written into a folder beside it (FILE without suffix, "_textures"). Throws
+// RuntimeError; then there is no such file.
 void writeDesign(const std::string& file, const Scene& before, const Scene& now);
 
 // What a design calls them.
 std::string designName(const std::vector<Material>& materials, size_t index);
 std::string designName(const std::vector<Emitter>& emitters, size_t index);
+std::vector<std::string> designNames(const std::vector<Material>& materials);  // all at once
+std::vector<std::string> designNames(const std::vector<Emitter>& emitters);
 // Those that a design's id names: all of that name, or the one of that place; empty: none.
 std::vector<size_t> namedInDesign(const std::vector<Material>& materials, const std::string& id);
 std::vector<size_t> namedInDesign(const std::vector<Emitter>& emitters, const std::string& id);

@@ -91,7 +91,9 @@ const std::map<std::string, CommandTexts>& texts() {
           "One picture under sun and sky"},
          {"lobelia view scene.xml --data scene.cuts --headless --frames 36 --rotate-step 10 -o "
           "turn%02d.exr",
-          "The environment turns once around the scene"}}}},
+          "The environment turns once around the scene"},
+         {"lobelia view scene.xml --data scene.cuts --headless --script edits.txt -o %04d.png",
+          "Frames, edits and designs that a script says"}}}},
       {"relight",
        {"Multiplies the light groups of a picture rendered with --aov groups by factors and "
         "colours "

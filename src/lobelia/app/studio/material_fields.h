@@ -29,6 +29,7 @@ struct MaterialField {
   float Material::*number = nullptr;
   Rgb Material::*plainColor = nullptr;
   bool Material::*flag = nullptr;
+  int Material::*index = nullptr;  // choices; null: of the distribution
   TextureHandle Material::*map = nullptr;
 };
 

@@ -80,7 +80,7 @@ void PictureMaker::showCuts(Context& context) {
     accepted_ = design_;
     refusal_.clear();
   } catch (const InputError& e) {
-    if (!accepted_) throw;
+    if (stage_.data() == nullptr) throw;
     if (refusal_ != e.what())
       context.warning(std::string(e.what()) + "; cuts go on without, other methods show it");
     refusal_ = e.what();

@@ -21,7 +21,9 @@ class PictureMaker {
  public:
   static constexpr int kMostTruth = 1 << 16;  // samples per pixel after which the truth stands
 
-  PictureMaker(Stage& stage, uint64_t seed) : stage_(stage), seed_(seed) {}
+  // first: the scene as read, which cuts can show if there are any.
+  PictureMaker(Stage& stage, std::shared_ptr<const Design> first, uint64_t seed)
+      : stage_(stage), seed_(seed), accepted_(std::move(first)) {}
 
   // What is wanted from now on; drops what no longer belongs to it.
   void want(std::shared_ptr<const Design> design, const ViewState& view);
@@ -31,8 +33,8 @@ class PictureMaker {
   Step next() const;
   // Is there nothing more to be done to the picture?
   bool isDone() const;
-  // Does it: the picture after it, or of step truth the truth. Throws InputError (cuts refused, and
-  // none were accepted before), RuntimeError, Cancelled; after a failure the picture is left as it
+  // Does it: the picture after it, or of step truth the truth. Throws InputError (no data for
+  // cuts), RuntimeError, Cancelled; after a failure the picture is left as it
   // is until something else is wanted.
   std::shared_ptr<Picture> run(Step step, Context& context);
   // Would the truth so far still be that of these?

@@ -22,8 +22,7 @@ uint32_t named(const std::vector<T>& items, const char* kind, const std::string&
                const Location& where) {
   const std::vector<size_t> found = io::namedInDesign(items, name);
   if (!found.empty()) return static_cast<uint32_t>(found.front());
-  std::vector<std::string> names;
-  for (size_t i = 0; i < items.size(); ++i) names.push_back(io::designName(items, i));
+  const std::vector<std::string> names = io::designNames(items);
   std::string hint = suggestion(name, names);
   constexpr size_t kShown = 12;
   if (hint.empty() && !names.empty()) {

@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "lobelia/app/frame_setup.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/app/studio/design_files.h"
 #include "lobelia/app/studio/material_edits.h"
@@ -19,12 +20,19 @@ std::string fileName(const std::string& file) {
   return std::filesystem::path(file).filename().string();
 }
 
+// Of one that an edit added and another has taken away.
+void requireMaterial(const Design& design, uint32_t material) {
+  if (material >= design.materials.size())
+    throw InputError({}, "the material that the file was for is not there any more");
+}
+
 }  // namespace
 
 Studio::Studio(const StudioSettings& settings, Context& context)
     : stage_(std::make_unique<Stage>(loadScene(settings.scene, context), settings.data, context)),
       seed_(settings.seed),
       strict_(settings.scene.strict),
+      inputs_{settings.scene.scene, settings.data, settings.scene.environment},
       hasCuts_(stage_->data() != nullptr),
       name_(stage_->scene().name),
       bounds_(stage_->tracer().bounds()),
@@ -69,35 +77,43 @@ void Studio::loadEnvironment(const std::string& file) {
 }
 
 void Studio::loadTexture(const std::string& file, uint32_t material, const std::string& word) {
-  const FieldPlace place = findField(design(), material, word, {});
-  desk_.give([this, file, place](Stage&, Context&) {
-    const auto image = readImageFile(file, place.field->kind != FieldKind::color);
-    desk_.arrive({fmt::format("{} by {}", place.field->label, fileName(file)),
+  const FieldKind kind = findField(design(), material, word, {}).field->kind;
+  desk_.give([=, this](Stage&, Context&) {
+    const auto image = readImageFile(file, kind != FieldKind::color);
+    desk_.arrive({word + " by " + fileName(file),
                   nullptr,
-                  [image, place](Design& d) {
+                  [=](Design& d) {
+                    requireMaterial(d, material);
+                    const FieldPlace place = findField(d, material, word, {});
                     const TextureHandle texture = addBitmap(d, image);
-                    setFieldTexture(d.materials.at(place.material), *place.field, texture);
+                    setFieldTexture(d.materials[place.material], *place.field, texture);
                   },
                   {}});
   });
 }
 
 void Studio::loadBump(const std::string& file, uint32_t material, float scale) {
-  desk_.give([this, file, material, scale](Stage&, Context&) {
+  desk_.give([=, this](Stage&, Context&) {
     const auto image = readImageFile(file, true);
     desk_.arrive({"bump map " + fileName(file),
                   nullptr,
-                  [=](Design& d) { setBump(d, material, addBitmap(d, image), scale); },
+                  [=](Design& d) {
+                    requireMaterial(d, material);
+                    setBump(d, material, addBitmap(d, image), scale);
+                  },
                   {}});
   });
 }
 
 void Studio::loadNormalMap(const std::string& file, uint32_t material) {
-  desk_.give([this, file, material](Stage&, Context&) {
+  desk_.give([=, this](Stage&, Context&) {
     const auto image = readImageFile(file, true);
     desk_.arrive({"normal map " + fileName(file),
                   nullptr,
-                  [=](Design& d) { setNormalMap(d, material, addBitmap(d, image)); },
+                  [=](Design& d) {
+                    requireMaterial(d, material);
+                    setNormalMap(d, material, addBitmap(d, image));
+                  },
                   {}});
   });
 }
@@ -121,6 +137,7 @@ void Studio::loadDesign(const std::string& file) {
 void Studio::saveDesign(const std::string& file) {
   desk_.give(
       [this, file, now = history_.share(), camera = view_.camera](Stage& stage, Context& context) {
+        requireNoInput({file}, inputs_);
         stage.show(now, Stage::Use::paths, {}, context);
         stage.save(file, *first_, camera);
         context.info("wrote " + file);
@@ -129,8 +146,9 @@ void Studio::saveDesign(const std::string& file) {
 
 void Studio::screenshot(const std::string& file, const DisplaySettings& display) {
   const std::shared_ptr<const Picture> picture = newestPicture(), truth = newestTruth();
-  desk_.give([file, display, picture, truth](Stage&, Context& context) {
+  desk_.give([this, file, display, picture, truth](Stage&, Context& context) {
     if (!picture) throw UsageError("there is no picture yet");
+    requireNoInput({file}, inputs_);
     writeScreenshot(file, *picture, truth.get(), display);
     context.info("wrote " + file);
   });
@@ -185,7 +203,7 @@ bool Studio::update() {
 }
 
 void Studio::work() {
-  PictureMaker maker(*stage_, seed_);
+  PictureMaker maker(*stage_, first_, seed_);
   Job job;
   Wanted wanted;
   for (;;) {

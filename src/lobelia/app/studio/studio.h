@@ -69,7 +69,8 @@ class Studio {
   // Files, read and written by the worker in the order of these calls. What is read becomes an edit
   // by update(); what fails, a message.
   void loadEnvironment(const std::string& file);
-  // place: of the design (fieldPlaces()); its values are read as numbers unless it is a colour.
+  // word: of a field of the material or of what it wraps (fieldPlaces(), prefix and word); the
+  // image is read as numbers unless it is a colour. Throws InputError for a word that it has not.
   void loadTexture(const std::string& file, uint32_t material, const std::string& word);
   void loadBump(const std::string& file, uint32_t material, float scale);
   void loadNormalMap(const std::string& file, uint32_t material);
@@ -105,7 +106,9 @@ class Studio {
 
   std::unique_ptr<Stage> stage_;  // the worker's
   const uint64_t seed_;
-  const bool strict_, hasCuts_;
+  const bool strict_;
+  const std::vector<std::string> inputs_;  // files that are not written over
+  const bool hasCuts_;
   const std::string name_;
   const Bounds3f bounds_;
   History history_;

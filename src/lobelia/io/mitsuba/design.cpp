@@ -66,6 +66,17 @@ std::vector<Emitter>::iterator targetOf(const Emitter& changed, std::vector<Emit
   });
 }
 
+// Materials of the scene as something that references can name.
+std::vector<Element> addMaterials(const Scene& scene, Document& document) {
+  const std::vector<std::string> names = designNames(scene.materials);
+  std::vector<Element> elements(names.size());
+  for (size_t i = 0; i < names.size(); ++i) {
+    elements[i].tag = "bsdf";
+    document.byId.emplace(names[i], &elements[i]);
+  }
+  return elements;
+}
+
 }  // namespace
 
 DesignParts Reader::change() {
@@ -101,6 +112,7 @@ DesignParts Reader::change() {
 
 void Reader::changeMaterials(const std::vector<const Element*>& elements) {
   const std::vector<Material> before = scene_.materials;
+  std::map<uint32_t, uint32_t> places;  // of the scene that new ones have taken
   for (const Element* e : elements) {
     const std::string name = e->valueOr("id", "");
     if (name.empty())
@@ -114,7 +126,12 @@ void Reader::changeMaterials(const std::vector<const Element*>& elements) {
     if (named.empty())
       throw InputError(
           e->where, fmt::format("the scene has no material '{}'{}", name, nearest(name, before)));
+    places.emplace(changed.index, static_cast<uint32_t>(named.front()));
   }
+  // What wraps a changed one wraps the scene's, which later changes find.
+  for (Material& m : scene_.materials)
+    for (MaterialHandle* h : {&m.a, &m.b})
+      if (const auto place = places.find(h->index); place != places.end()) h->index = place->second;
 }
 
 void Reader::changeEmitter(const Element& element) {
@@ -170,8 +187,11 @@ void Reader::changeSensor(const Element& element) {
 DesignParts applyDesign(const std::string& file, const ReadSettings& settings, Scene& scene,
                         Context& context) {
   Findings findings(scene.findings, settings.strict);
-  const mitsuba::Document document = mitsuba::loadDocument(file, settings.definitions, findings);
-  return mitsuba::Reader(document, scene, settings.time, findings, context).change();
+  mitsuba::Document document = mitsuba::loadDocument(file, settings.definitions, findings);
+  const std::vector<mitsuba::Element> materials = mitsuba::addMaterials(scene, document);
+  mitsuba::Reader reader(document, scene, settings.time, findings, context);
+  for (uint32_t i = 0; i < materials.size(); ++i) reader.know(materials[i], {i});
+  return reader.change();
 }
 
 }  // namespace lobelia::io

@@ -5,8 +5,6 @@
 namespace lobelia::io::mitsuba {
 namespace {
 
-constexpr int kMostNested = 64;
-
 bool same(const ColorParam& a, const ColorParam& b) {
   return a.texture == b.texture && (a.texture.valid() || a.value == b.value);
 }
@@ -53,19 +51,10 @@ bool sameOwn(const Material& a, const Material& b) {
                     });
 }
 
-bool sameMaterial(const std::vector<Material>& a, MaterialHandle x, const std::vector<Material>& b,
-                  MaterialHandle y, int depth) {
-  if (!x.valid() || !y.valid() || depth > kMostNested) return x.valid() == y.valid();
-  const Material &m = a[x.index], &n = b[y.index];
-  return sameOwn(m, n) && sameMaterial(a, m.a, b, n.a, depth + 1) &&
-         sameMaterial(a, m.b, b, n.b, depth + 1);
-}
-
 }  // namespace
 
-bool sameMaterial(const std::vector<Material>& a, MaterialHandle x, const std::vector<Material>& b,
-                  MaterialHandle y) {
-  return sameMaterial(a, x, b, y, 0);
+bool sameMaterial(const Material& a, const Material& b) {
+  return sameOwn(a, b) && a.a == b.a && a.b == b.b;
 }
 
 bool sameEmitter(const Emitter& a, const Emitter& b) {
@@ -83,10 +72,10 @@ bool sameCamera(const Camera& a, const Camera& b) {
   return a.type == b.type && a.toWorld.to == b.toWorld.to && a.fovX == b.fovX &&
          a.principalPointOffset == b.principalPointOffset && a.nearClip == b.nearClip &&
          a.farClip == b.farClip && a.apertureRadius == b.apertureRadius &&
-         (a.focusDistance == b.focusDistance || a.apertureRadius == 0) && a.width == b.width && a.height == b.height &&
-         a.cropX0 == b.cropX0 && a.cropY0 == b.cropY0 && a.cropX1 == b.cropX1 &&
-         a.cropY1 == b.cropY1 && a.filter == b.filter && a.filterRadius == b.filterRadius &&
-         a.spp == b.spp &&
+         (a.focusDistance == b.focusDistance || a.apertureRadius == 0) && a.width == b.width &&
+         a.height == b.height && a.cropX0 == b.cropX0 && a.cropY0 == b.cropY0 &&
+         a.cropX1 == b.cropX1 && a.cropY1 == b.cropY1 && a.filter == b.filter &&
+         a.filterRadius == b.filterRadius && a.spp == b.spp &&
          std::equal(a.path.begin(), a.path.end(), b.path.begin(), b.path.end(), keys);
 }
 

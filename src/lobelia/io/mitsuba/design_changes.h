@@ -5,9 +5,8 @@
 
 namespace lobelia::io::mitsuba {
 
-// All that is inside counts, names do not. Textures are the same when their handles are.
-bool sameMaterial(const std::vector<Material>& a, MaterialHandle x, const std::vector<Material>& b,
-                  MaterialHandle y);
+// Names do not count. What is wrapped, textures and images are the same when their handles are.
+bool sameMaterial(const Material& a, const Material& b);
 bool sameEmitter(const Emitter& a, const Emitter& b);
 // Without a lens it does not count where it would focus.
 bool sameCamera(const Camera& a, const Camera& b);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "lobelia/io/mitsuba/writer.h"
 
@@ -39,19 +40,35 @@ bool isWritable(const std::string& name) {
 }
 
 template <class T>
-std::string nameOf(const std::vector<T>& items, const char* kind, size_t index) {
-  const std::string& name = items[index].name;
-  return isWritable(name) && named(items, kind, name).size() == 1 ? name
-                                                                  : mitsuba::placeName(kind, index);
+std::vector<std::string> namesOf(const std::vector<T>& items, const char* kind) {
+  std::unordered_map<std::string, size_t> called;  // how many
+  for (const T& item : items) {
+    if (item.name.empty()) continue;
+    ++called[item.name];
+    if (const std::string clean = mitsuba::cleanName(item.name); clean != item.name)
+      ++called[clean];
+  }
+  std::vector<std::string> names;
+  for (size_t i = 0; i < items.size(); ++i) {
+    const std::string& name = items[i].name;
+    names.push_back(isWritable(name) && called[name] == 1 ? name : mitsuba::placeName(kind, i));
+  }
+  return names;
 }
 
 }  // namespace
 
+std::vector<std::string> designNames(const std::vector<Material>& materials) {
+  return namesOf(materials, "material");
+}
+std::vector<std::string> designNames(const std::vector<Emitter>& emitters) {
+  return namesOf(emitters, "emitter");
+}
 std::string designName(const std::vector<Material>& materials, size_t index) {
-  return nameOf(materials, "material", index);
+  return designNames(materials)[index];
 }
 std::string designName(const std::vector<Emitter>& emitters, size_t index) {
-  return nameOf(emitters, "emitter", index);
+  return designNames(emitters)[index];
 }
 std::vector<size_t> namedInDesign(const std::vector<Material>& materials, const std::string& id) {
   return named(materials, "material", id);

@@ -1,8 +1,8 @@
 // Designs out (io/design.h): the writer of scenes, for what has changed.
 //
-// A material is written when anything in it changed, and stands alone (by its name or place) when a
-// surface has it or nothing else wraps it; others are inside those that wrap them, all of which
-// have changed with them.
+// Each of the scene's materials that is another now is written, by its name or place. What it wraps
+// is a reference where that is a material of the scene, changed or not, and stands inside it where
+// it is a new one.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -112,31 +112,33 @@ void Writer::writeDesign(const std::string& file, const Scene& before) {
 }
 
 void Writer::writeChangedMaterials(const Scene& before) {
-  std::vector<uint8_t> standsAlone(before.materials.size(), 1);
-  for (const Material& m : before.materials)
-    for (const MaterialHandle h : {m.a, m.b})
-      if (h.index < standsAlone.size()) standsAlone[h.index] = 0;
-  for (const Instance& i : before.instances)
-    if (i.material.index < standsAlone.size()) standsAlone[i.material.index] = 1;
-  for (uint32_t i = 0; i < before.materials.size(); ++i) {
-    if (standsAlone[i] == 0 || sameMaterial(before.materials, {i}, scene_.materials, {i})) continue;
-    std::string id = designName(before.materials, i);
-    if (ids_.make(id, "") != id) id = placeName("material", i);
-    requireMeant(before.materials, id, i, designFile_);
-    writeMaterial(root_, scene_.materials[i], id);
+  materialIds_ = designNames(before.materials);
+  for (size_t i = 0; i < before.materials.size(); ++i) {
+    const Material& now = scene_.materials[i];
+    if (sameMaterial(before.materials[i], now)) continue;
+    for (const size_t named : {i, size_t{now.a.index}, size_t{now.b.index}})
+      if (named < materialIds_.size())
+        requireMeant(before.materials, materialIds_[named], named, designFile_);
+    ids_.make(materialIds_[i], "");  // which no light may have
+    writeMaterial(root_, now, materialIds_[i]);
   }
 }
 
 void Writer::writeChangedEmitters(const Scene& before) {
+  const std::vector<std::string> names = designNames(before.emitters);
   for (size_t i = 0; i < scene_.emitters.size(); ++i) {
     const Emitter& emitter = scene_.emitters[i];
     if (i >= before.emitters.size()) {  // a new one
-      writeEmitter(emitter, ids_.make(emitter.name, "light"));
+      std::string id;
+      do {
+        id = ids_.make(emitter.name, "light");
+      } while (!namedInDesign(before.emitters, id).empty());
+      writeEmitter(emitter, id);
       continue;
     }
     if (sameEmitter(before.emitters[i], emitter)) continue;
     const bool role = isSurrounding(emitter.type) || emitter.type == EmitterType::sun;
-    std::string id = role ? emitter.name : designName(before.emitters, i);
+    std::string id = role ? emitter.name : names[i];
     const bool plain = cleanName(id) == id && !id.empty();
     if (role && !isFirstOfItsRole(before.emitters, i)) id = placeName("emitter", i);
     if ((role && !plain) || (plain && ids_.make(id, "") != id)) id = placeName("emitter", i);

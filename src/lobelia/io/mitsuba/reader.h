@@ -26,6 +26,10 @@ class Reader {
 
   void read();
   DesignParts change();  // design.cpp: a scene that has been read
+  // An element that stands for a material of the scene.
+  void know(const Element& element, MaterialHandle material) {
+    materials_.emplace(&element, material);
+  }
 
  private:
   Object open(const Element& element) const { return {element, document_, findings_}; }

@@ -276,7 +276,8 @@ void Writer::writeMaterial(Node parent, const Material& material, const std::str
 }
 
 void Writer::nested(Node node, MaterialHandle material) {
-  if (isDesign_) return writeMaterial(node, scene_[material], {});
+  if (isDesign_ && material.index >= materialIds_.size())
+    return writeMaterial(node, scene_[material], {});
   reference(node, materialIds_[material.index]);
 }
 
