@@ -1,5 +1,5 @@
 // `lobelia view` in a real window, on a display of its own (Xvfb and software OpenGL). Skipped
-// where xvfb-run is not installed.
+// where Xvfb is not installed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class WindowReal : public testing::Test {
   ProgramResult runScript(const std::string& script, const std::string& options = "") const {
     writeText(file("hand.script"), script);
     return run(
-        "xvfb-run -a -s '-screen 0 800x600x24'",
+        "env DISPLAY=" + display_->name(),
         "--size 640x400 --spp 1 --threads 2 --ui-script " + file("hand.script") + " " + options);
   }
   void SetUp() override { writeText(file("scene.xml"), kPanelScene); }
