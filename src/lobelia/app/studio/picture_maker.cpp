@@ -9,9 +9,10 @@
 namespace lobelia::app {
 namespace {
 
-constexpr int kLookDivisor = 4;   // of each side
-constexpr int kLookLeast = 64;    // smaller pictures are soon there
-constexpr int kMostSamples = 16;  // of a pass
+constexpr int kLookDivisor = 4;     // of each side
+constexpr int kLookLeast = 64;      // smaller pictures are soon there
+constexpr double kSlowFrame = 0.5;  // seconds: frames that take as long want a look before
+constexpr int kMostSamples = 16;    // of a pass
 constexpr uint64_t kTruthStream = 0x7475746874ull, kLookStream = 0x6c6f6f6bull;
 
 // Passes grow: a first one is soon there, later ones cost less around them.
@@ -19,6 +20,12 @@ int samplesOf(const PassMean& mean, int most) {
   const int wanted = std::clamp(mean.samples() / 2, 1, kMostSamples);
   return std::min(wanted, most - mean.samples());
 }
+
+bool mayBeSmaller(const ViewState& view) {
+  return !view.cropped && std::min(view.width, view.height) >= kLookLeast;
+}
+
+double secondsSince(int64_t start) { return static_cast<double>(nanosecondsNow() - start) * 1e-9; }
 
 std::vector<std::pair<std::string, double>> partsOf(const Statistics& statistics) {
   std::vector<std::pair<std::string, double>> parts;
@@ -47,7 +54,7 @@ void PictureMaker::want(std::shared_ptr<const Design> design, const ViewState& v
 
 void PictureMaker::restart() {
   mean_.clear();
-  started_ = givenUp_ = false;
+  looked_ = started_ = givenUp_ = false;
   pictureSeconds_ = 0;
 }
 
@@ -62,7 +69,8 @@ PictureMaker::Step PictureMaker::next() const {
   // Both at once share the time.
   if (isDone()) return truth ? Step::truth : Step::none;
   if (truth && mean_.passes() > 0 && truthSeconds_ < pictureSeconds_) return Step::truth;
-  if (view_.method == ViewMethod::cuts) return Step::frame;
+  if (view_.method == ViewMethod::cuts)
+    return !looked_ && frameSeconds_ > kSlowFrame && mayBeSmaller(view_) ? Step::look : Step::frame;
   return started_ ? Step::pass : Step::look;
 }
 
@@ -92,12 +100,19 @@ std::shared_ptr<Picture> PictureMaker::run(Step step, Context& context) {
   const int64_t start = nanosecondsNow();
   std::shared_ptr<Picture> picture;
   context.seed = seed_;
-  show(step == Step::frame, context);
+  const bool cuts = view_.method == ViewMethod::cuts;
+  show(step == Step::frame || (step == Step::look && cuts), context);
   switch (step) {
     case Step::none:
       return nullptr;
     case Step::frame:
-      picture = frame(context);
+      try {
+        picture = frame(view_, context);
+      } catch (const Cancelled&) {
+        frameSeconds_ = std::max(frameSeconds_, secondsSince(start));
+        throw;
+      }
+      frameSeconds_ = secondsSince(start);
       break;
     case Step::look:
       picture = look(context);
@@ -112,8 +127,9 @@ std::shared_ptr<Picture> PictureMaker::run(Step step, Context& context) {
       picture = pass(ViewMethod::path, truth_, context);
       break;
   }
-  if (step != Step::truth) started_ = true;
-  picture->seconds = static_cast<double>(nanosecondsNow() - start) * 1e-9;
+  if (step == Step::look) looked_ = true;
+  if (step != Step::truth && !(step == Step::look && cuts)) started_ = true;
+  picture->seconds = secondsSince(start);
   double& all = step == Step::truth ? truthSeconds_ : pictureSeconds_;
   all += picture->seconds;
   picture->secondsInAll = all;
@@ -126,33 +142,37 @@ std::shared_ptr<Picture> PictureMaker::run(Step step, Context& context) {
   return picture;
 }
 
-std::shared_ptr<Picture> PictureMaker::frame(Context& context) {
-  const Camera camera = viewCamera(view_);
+std::shared_ptr<Picture> PictureMaker::frame(const ViewState& view, Context& context) {
+  const Camera camera = viewCamera(view);
   auto picture = std::make_shared<Picture>();
   picture->film = makeFilm(camera, {});
   picture->film.layers.erase("direct");
   picture->film.layers.erase("indirect");
-  if (view_.cost) picture->film.addLayer("cost", 1);
-  stage_.renderCuts(camera, design_->rotation, view_.lightCut,
-                    {.spp = view_.cutsSpp, .refined = view_.refined}, picture->film, context);
+  if (view.cost) picture->film.addLayer("cost", 1);
+  stage_.renderCuts(camera, design_->rotation, view.lightCut,
+                    {.spp = view.cutsSpp, .refined = view.refined}, picture->film, context);
   picture->method = viewMethodNames()[static_cast<size_t>(ViewMethod::cuts)];
   return picture;
 }
 
 std::shared_ptr<Picture> PictureMaker::look(Context& context) {
-  const bool large = !view_.cropped && std::min(view_.width, view_.height) >= kLookLeast;
-  if (!large) {
+  if (!mayBeSmaller(view_)) {
     context.seed = hashCombine(seed_, 0);
     return pass(view_.method, mean_, context);
   }
   ViewState small = view_;
   small.width /= kLookDivisor, small.height /= kLookDivisor, small.cropped = false;
   context.seed = hashCombine(seed_, kLookStream);
-  auto picture = std::make_shared<Picture>();
-  PassMean mean;
-  mean.add(stage_.renderPass(viewCamera(small), passOptions(small, view_.method, 1), context), 1);
-  picture->film = mean.film();
-  picture->method = viewMethodNames()[static_cast<size_t>(view_.method)];
+  std::shared_ptr<Picture> picture;
+  if (view_.method == ViewMethod::cuts) {
+    picture = frame(small, context);
+  } else {
+    picture = std::make_shared<Picture>();
+    PassMean mean;
+    mean.add(stage_.renderPass(viewCamera(small), passOptions(small, view_.method, 1), context), 1);
+    picture->film = mean.film();
+    picture->method = viewMethodNames()[static_cast<size_t>(view_.method)];
+  }
   picture->quick = true;
   return picture;
 }

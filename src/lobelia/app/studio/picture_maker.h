@@ -1,5 +1,6 @@
-// Makes the pictures of a view, step by step: a frame by cuts, or a first look at a quarter of the
-// size and then pass after pass, averaged; and the path-traced truth beside it. For one thread;
+// Makes the pictures of a view, step by step: a frame by cuts, after a first look at a quarter of
+// the size when frames are slow; or such a look and then pass after pass, averaged; and the
+// path-traced truth beside it. For one thread;
 // synchronous: the window's worker and headless frames call it.
 //
 // A design that cuts cannot show is said to be so, once, and they go on with the last one that they
@@ -31,6 +32,8 @@ class PictureMaker {
   // Which step would be next.
   enum class Step : uint8_t { none, frame, look, pass, truth };
   Step next() const;
+  // Is it the first to show something of what is wanted now?
+  bool isFirst(Step step) const { return step == Step::look || (step == Step::frame && !looked_); }
   // Is there nothing more to be done to the picture?
   bool isDone() const;
   // Does it: the picture after it, or of step truth the truth. Throws InputError (no data for
@@ -47,7 +50,7 @@ class PictureMaker {
   void giveUp(Step step);
 
  private:
-  std::shared_ptr<Picture> frame(Context& context);
+  std::shared_ptr<Picture> frame(const ViewState& view, Context& context);
   std::shared_ptr<Picture> look(Context& context);
   std::shared_ptr<Picture> pass(ViewMethod method, PassMean& mean, Context& context);
   void show(bool cuts, Context& context);
@@ -60,8 +63,10 @@ class PictureMaker {
   std::string refusal_;                     // of design_, said already
   ViewState view_;
   PassMean mean_, truth_;
+  bool looked_ = false;   // the look is done, if there is to be one
   bool started_ = false;  // frame or look is done
   bool givenUp_ = false, truthGivenUp_ = false;
+  double frameSeconds_ = 0;  // that the last frame by cuts took, or had taken when it was cancelled
   double pictureSeconds_ = 0, truthSeconds_ = 0;
 };
 

@@ -77,7 +77,13 @@ void Studio::loadEnvironment(const std::string& file) {
 }
 
 void Studio::loadTexture(const std::string& file, uint32_t material, const std::string& word) {
-  const FieldKind kind = findField(design(), material, word, {}).field->kind;
+  FieldKind kind;
+  try {
+    requireMaterial(design(), material);
+    kind = findField(design(), material, word, {}).field->kind;
+  } catch (const InputError& e) {
+    return desk_.message(Severity::error, e.what());
+  }
   desk_.give([=, this](Stage&, Context&) {
     const auto image = readImageFile(file, kind != FieldKind::color);
     desk_.arrive({word + " by " + fileName(file),
@@ -227,7 +233,7 @@ void Studio::workOn(PictureMaker& maker) {
   using Step = PictureMaker::Step;
   const Step step = maker.next();
   Context context(&desk_);
-  if (!desk_.begin(context, step == Step::frame || step == Step::look)) return;
+  if (!desk_.begin(context, maker.isFirst(step))) return;
   try {
     const std::shared_ptr<const Picture> picture = maker.run(step, context);
     desk_.end();

@@ -70,7 +70,7 @@ class Studio {
   // by update(); what fails, a message.
   void loadEnvironment(const std::string& file);
   // word: of a field of the material or of what it wraps (fieldPlaces(), prefix and word); the
-  // image is read as numbers unless it is a colour. Throws InputError for a word that it has not.
+  // image is read as numbers unless it is a colour.
   void loadTexture(const std::string& file, uint32_t material, const std::string& word);
   void loadBump(const std::string& file, uint32_t material, float scale);
   void loadNormalMap(const std::string& file, uint32_t material);
