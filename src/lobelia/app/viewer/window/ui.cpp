@@ -103,7 +103,11 @@ void Ui::wantPicture(float pixelScale, int largest) {
   ui.view.truth = ui.split;
   ui.view.white = ui.display.shown == Shown::illuminance;
   ui.view.cost = ui.display.shown == Shown::cost;
-  ui.studio.setView(ui.view);
+  // What is wanted again would cancel what is being drawn for it.
+  const ViewState& now = ui.studio.view();
+  if (!samePicture(now, ui.view) || !sameTruth(now, ui.view) || now.spp != ui.view.spp ||
+      now.truth != ui.view.truth)
+    ui.studio.setView(ui.view);
 }
 
 void Ui::draw(const PictureShown& picture, float pixelScale, int largest) {
