@@ -27,10 +27,10 @@ void warnOfMissing(const CutData& data, const Scene& scene, Context& context);
 
 struct CutSettings {
   int spp = 1;
-  size_t lightCut = 512;    // nodes
-  double rotation = 0;      // of the light from infinity, degrees
-  bool plainLobes = false;  // as the paper has it
-  int areaPlaces = 4;       // of each area emitter, for shadow rays
+  size_t lightCut = 512;          // nodes
+  double rotation = 0;            // of the light from infinity, degrees
+  bool plainLobes = false;        // as the paper has it
+  int areaPlaces = 4;             // of each area emitter, for shadow rays
   std::string component = "all";  // or "direct", "indirect"; light from infinity is direct
 };
 
