@@ -5,6 +5,8 @@
 
 #include "lobelia/builtin/mesh_edit.h"
 #include "lobelia/builtin/noise.h"
+#include "lobelia/builtin/refine.h"
+#include "lobelia/builtin/shapes.h"
 #include "lobelia/builtin/solids.h"
 #include "lobelia/builtin/sweep.h"
 #include "lobelia/builtin/textures.h"
@@ -80,6 +82,25 @@ TEST(BuiltinToolkit, LargestPartLeavesTheRestOut) {
   expectSound(part);
   EXPECT_EQ(part.triangles.size(), large.triangles.size());
   EXPECT_DOUBLE_EQ(volume(part), volume(large));
+}
+
+// The longest image of an axis is 2.9, of the diagonal 4.
+TEST(BuiltinToolkit, RefinedEdgesAreShortInSkewedInstances) {
+  Scene scene;
+  scene.meshes.push_back(roundedBox({1, 1, 1}, 0.1f, 2));
+  Instance instance;
+  instance.mesh = {0};
+  instance.toWorld = Transform(scaling({4, 1, 1}) * rotation({0, 0, 1}, 45));
+  scene.instances.push_back(instance);
+  constexpr float kLongest = 0.5f;
+  refine(scene, kLongest);
+  const Mesh& mesh = scene.meshes.front();
+  for (const Vec3u& t : mesh.triangles)
+    for (const auto& [a, b] : {std::pair{t.x, t.y}, std::pair{t.y, t.z}, std::pair{t.z, t.x}})
+      ASSERT_LE(length(instance.toWorld.point(mesh.positions[a]) -
+                       instance.toWorld.point(mesh.positions[b])),
+                kLongest * 1.0001f);
+  EXPECT_GT(mesh.triangles.size(), 1000u);
 }
 
 TEST(BuiltinToolkit, PolygonsAreTriangulatedCompletely) {

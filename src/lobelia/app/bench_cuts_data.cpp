@@ -1,6 +1,7 @@
 // Figure 9 of [P004]: precomputation by the geometric and by the data-driven metric, and frames per
 // second while view, light and materials change with every frame.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -21,7 +22,7 @@ class TemporaryFile {
  public:
   TemporaryFile()
       : path_((std::filesystem::temp_directory_path() /
-               fmt::format("lobelia-cuts-{}", nanosecondsNow()))
+               fmt::format("lobelia-cuts-{}-{}", getpid(), nanosecondsNow()))
                   .string()) {}
   ~TemporaryFile() {
     std::error_code ignored;
