@@ -203,6 +203,25 @@ TEST(Usage, MoreNearLightsThanThereAreIsSaid) {
   EXPECT_EQ(gather["bound"], "");
 }
 
+TEST(Usage, FilesThatScenesNameAreToldWithItsLine) {
+  const TemporaryFolder folder;
+  test::writeText(folder / "empty.ply", "");
+  test::writeText(folder / "empty.exr", "");
+  test::writeText(folder / "mesh.xml",
+                  "<scene version=\"3.0.0\">\n\n<shape type=\"ply\"><string name=\"filename\" "
+                  "value=\"empty.ply\"/></shape></scene>");
+  test::writeText(folder / "light.xml",
+                  "<scene version=\"3.0.0\">\n<emitter type=\"envmap\"><string name=\"filename\" "
+                  "value=\"empty.exr\"/></emitter></scene>");
+  expectFailure("info " + (folder / "mesh.xml"), 3, "mesh.xml:3:");
+  expectFailure("info " + (folder / "mesh.xml"), 3, "empty.ply: not a PLY file");
+  expectFailure("info " + (folder / "light.xml"), 3, "light.xml:2:");
+  expectFailure("info " + (folder / "light.xml"), 3, "empty.exr: the file is empty");
+  // Where a relative name was looked for.
+  expectFailure("info cornell --design no/such.xml", 3,
+                "'no/such.xml' does not exist in " + std::filesystem::current_path().string());
+}
+
 TEST(Usage, FoldersAreMadeWithTheirParents) {
   const TemporaryFolder folder;
   test::writeText(folder / "file", "");
