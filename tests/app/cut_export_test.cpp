@@ -338,6 +338,15 @@ TEST_F(CutExport, IsWrittenWholeOrRefused) {
   const std::string before = test::readText(folder_ / "trees/description.json");
   render(options + "--seed 3 --time-limit 1e-9 --spp 2", "b");
   EXPECT_EQ(test::readText(folder_ / "trees/description.json"), before);
+  // Tables of more trees than the next render has go; what is not a table stays.
+  const std::vector<std::string> old{"trees/direct.tree9.nodes.axis.npy",
+                                     "trees/indirect.cuts.former.npy"};
+  for (const std::string& file : old) test::writeText(folder_ / file, "old");
+  test::writeText(folder_ / "trees/direct.notes.npy", "mine");
+  render(options, "c");
+  for (const std::string& file : old) EXPECT_FALSE(std::filesystem::exists(folder_ / file)) << file;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "trees/direct.notes.npy"));
+  EXPECT_EQ(test::readText(folder_ / "trees/description.json"), before);
 }
 
 }  // namespace

@@ -34,6 +34,13 @@ TEST(PrecomputeCommand, WritesDataAndStatistics) {
     EXPECT_LT(stats["cuts"]["rms"], 0.5);
     EXPECT_EQ(stats["memory"]["file_bytes"],
               std::filesystem::file_size(folder / (light + ".cuts")));
+    EXPECT_EQ(stats["seed"], 0);
+    EXPECT_TRUE(stats["gather"]["threshold"].is_null());
+    for (const char* key : {"version", "scene", "lights", "receivers", "memory"})
+      EXPECT_TRUE(stats.contains(key)) << key;
+    for (const char* key : {"rays_per_pixel", "node_pairs_visited", "nonfinite"})
+      EXPECT_EQ(stats["counts"][key], 0) << key;
+    EXPECT_EQ(stats["seconds"]["traverse"], 0);
     for (const char* stage : {"samples", "subdivision", "pilot", "trees", "visibility", "total"})
       EXPECT_GT(stats["seconds"][stage], 0) << stage;
   }

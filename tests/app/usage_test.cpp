@@ -187,6 +187,41 @@ TEST(Usage, OptionsWithoutEffectAreSaid) {
   EXPECT_EQ(warnings("--num-lights 16 --exposure 1 -o " + (folder / "a.png")), Names{});
 }
 
+TEST(Usage, MoreNearLightsThanThereAreIsSaid) {
+  const TemporaryFolder folder;
+  const std::string tiny =
+      "render study-phong --detail 0.1 --size 8x8 --spp 1 --num-lights 16 -o " +
+      (folder / "a.exr") + " --stats " + (folder / "s.json");
+  const ProgramResult more = runProgram(tiny + " --near-lights 5000");
+  EXPECT_EQ(more.exitCode, 0) << more.err;
+  EXPECT_NE(more.err.find("--near-lights 5000: there are"), std::string::npos) << more.err;
+  const ProgramResult few = runProgram(tiny + " --near-lights 4");
+  EXPECT_EQ(few.err.find("--near-lights"), std::string::npos) << few.err;
+  const auto gather = nlohmann::json::parse(test::readText(folder / "s.json"))["gather"];
+  EXPECT_TRUE(gather["threshold"].is_null()) << gather;
+  EXPECT_TRUE(gather["error"].is_null()) << gather;
+  EXPECT_EQ(gather["bound"], "");
+}
+
+TEST(Usage, FilesThatScenesNameAreToldWithItsLine) {
+  const TemporaryFolder folder;
+  test::writeText(folder / "empty.ply", "");
+  test::writeText(folder / "empty.exr", "");
+  test::writeText(folder / "mesh.xml",
+                  "<scene version=\"3.0.0\">\n\n<shape type=\"ply\"><string name=\"filename\" "
+                  "value=\"empty.ply\"/></shape></scene>");
+  test::writeText(folder / "light.xml",
+                  "<scene version=\"3.0.0\">\n<emitter type=\"envmap\"><string name=\"filename\" "
+                  "value=\"empty.exr\"/></emitter></scene>");
+  expectFailure("info " + (folder / "mesh.xml"), 3, "mesh.xml:3:");
+  expectFailure("info " + (folder / "mesh.xml"), 3, "empty.ply: not a PLY file");
+  expectFailure("info " + (folder / "light.xml"), 3, "light.xml:2:");
+  expectFailure("info " + (folder / "light.xml"), 3, "empty.exr: the file is empty");
+  // Where a relative name was looked for.
+  expectFailure("info cornell --design no/such.xml", 3,
+                "'no/such.xml' does not exist in " + std::filesystem::current_path().string());
+}
+
 TEST(Usage, FoldersAreMadeWithTheirParents) {
   const TemporaryFolder folder;
   test::writeText(folder / "file", "");

@@ -5,6 +5,8 @@
 
 #include "lobelia/builtin/mesh_edit.h"
 #include "lobelia/builtin/noise.h"
+#include "lobelia/builtin/refine.h"
+#include "lobelia/builtin/shapes.h"
 #include "lobelia/builtin/solids.h"
 #include "lobelia/builtin/sweep.h"
 #include "lobelia/builtin/textures.h"
@@ -80,6 +82,28 @@ TEST(BuiltinToolkit, LargestPartLeavesTheRestOut) {
   expectSound(part);
   EXPECT_EQ(part.triangles.size(), large.triangles.size());
   EXPECT_DOUBLE_EQ(volume(part), volume(large));
+}
+
+// The longest image of an axis is 2.9, of the diagonal 4. Halves of one edge may be short enough by
+// luck: several limits are tried.
+TEST(BuiltinToolkit, RefinedEdgesAreShortInSkewedInstances) {
+  for (const float longest : {0.5f, 0.56f, 0.63f, 0.71f, 0.8f, 0.9f}) {
+    Scene scene;
+    scene.meshes.push_back(roundedBox({1, 1, 1}, 0.1f, 2));
+    Instance instance;
+    instance.mesh = {0};
+    instance.toWorld = Transform(scaling({4, 1, 1}) * rotation({0, 0, 1}, 45));
+    scene.instances.push_back(instance);
+    refine(scene, longest);
+    const Mesh& mesh = scene.meshes.front();
+    float most = 0;
+    for (const Vec3u& t : mesh.triangles)
+      for (const auto& [a, b] : {std::pair{t.x, t.y}, std::pair{t.y, t.z}, std::pair{t.z, t.x}})
+        most = std::max(most, length(instance.toWorld.point(mesh.positions[a]) -
+                                     instance.toWorld.point(mesh.positions[b])));
+    EXPECT_LE(most, longest * 1.0001f);
+    EXPECT_GT(most, longest / 4) << "no finer than it has to be";
+  }
 }
 
 TEST(BuiltinToolkit, PolygonsAreTriangulatedCompletely) {

@@ -49,6 +49,20 @@ std::string estimateText(const RenderOptions& options) {
          "the cut: of what its lights give";
 }
 
+// Of an earlier render, which may have had more trees: every file whose name is one of a table's.
+void removeTables(const std::string& folder) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    const size_t dot = name.find('.');
+    const std::string part = name.substr(0, dot);
+    if (dot == std::string::npos || (part != "direct" && part != "indirect")) continue;
+    const std::string rest = name.substr(dot + 1);
+    if ((rest.starts_with("tree") || rest.starts_with("cuts.")) && rest.ends_with(".npy"))
+      std::filesystem::remove(entry.path(), ignored);
+  }
+}
+
 }  // namespace
 
 void requireCutExport(const RenderOptions& options) {
@@ -168,6 +182,7 @@ void CutExport::write(const RenderOptions& options, const Scene& scene, const Fi
   if (error) throw RuntimeError(fmt::format("cannot make folder {}: {}", folder, error.message()));
   const std::string description = (fs::path(folder) / kDescription).string();
   fs::remove(description, error);  // of an earlier render: it no longer tells what is there
+  removeTables(folder);
 
   Json parts = Json::array();
   for (const auto& [name, part] : {std::pair{"direct", &direct_}, {"indirect", &indirect_}}) {

@@ -64,6 +64,17 @@ float nearLightsOf(const RenderOptions& options) {
   return combinesWithNearLights(options) && !options.compensate ? 4.f : 0.f;
 }
 
+void warnOfFewLights(const LightParts& lights, const RenderOptions& options, Context& context) {
+  size_t count = 0;  // of those that LightSpacing counts
+  for (const VirtualLights* part : {&lights.direct, &lights.indirect})
+    count += part->diffuse.size() + part->glossy.size() + part->spherical.size();
+  if (options.nearLights > static_cast<float>(count))
+    context.warning(
+        fmt::format("--near-lights {}: there are {} virtual lights, so every surface is near and "
+                    "the receivers' own rays find all light",
+                    options.nearLights, count));
+}
+
 std::function<float(Vec3f)> nearDistanceOf(const LightParts& lights, const RenderOptions& options) {
   const float count = nearLightsOf(options);
   // Without lights on emitters, direct light is the eye pass's.

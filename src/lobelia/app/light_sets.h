@@ -34,6 +34,8 @@ LightParts splitLights(VirtualLights lights);
 // May receivers find near light by rays of their own? --near-lights with its default filled in.
 bool combinesWithNearLights(const RenderOptions& options);
 float nearLightsOf(const RenderOptions& options);
+// Warns where --near-lights asks for more lights than there are.
+void warnOfFewLights(const LightParts& lights, const RenderOptions& options, Context& context);
 // EyeSettings::nearDistance with these lights (--near-lights).
 std::function<float(Vec3f)> nearDistanceOf(const LightParts& lights, const RenderOptions& options);
 // Samples per pixel with virtual lights.

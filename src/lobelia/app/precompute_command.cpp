@@ -59,6 +59,8 @@ uint64_t fileBytes(const std::string& file) {  // 0: of a device
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
+// The contract's keys, of which those of rendering are 0 here, and what there is to tell of the
+// data.
 Json statisticsJson(const PrecomputeOptions& options, const Scene& scene,
                     const relight::VisibilityData& data, const Context& context) {
   const Statistics& s = context.statistics;
@@ -86,7 +88,24 @@ Json statisticsJson(const PrecomputeOptions& options, const Scene& scene,
     counts["adaptive_wrong"] = s.count("adaptive_wrong");
     counts["adaptive_rms"] = std::sqrt(ratio(wrong, values));
   }
+  for (const char* name :
+       {"node_pairs_visited", "node_pairs_shaded", "specular_connections", "rays_per_pixel",
+        "cut_nodes_per_pixel", "lights_per_light_node", "pixels_per_pixel_node", "nonfinite"})
+    counts[name] = 0;
+  for (const char* stage : {"receivers", "lights", "traverse", "shade"}) seconds[stage] = 0;
+  Json lights = {{"model", options.light}, {"samples", data.samples.count()}};
+  for (const char* kind : {"omni", "directional", "diffuse", "glossy", "spherical", "vsgl"})
+    lights[kind] = 0;
   return {{"version", kVersion},
+          {"seed", options.seed},
+          {"lights", std::move(lights)},
+          {"gather",
+           {{"strategy", "none"},
+            {"mode", ""},
+            {"bound", ""},
+            {"threshold", nullptr},
+            {"error", nullptr}}},
+          {"receivers", {{"diffuse", 0}, {"glossy", 0}}},
           {"scene",
            {{"triangles", triangleCount(scene)},
             {"materials", scene.materials.size()},
@@ -111,6 +130,8 @@ Json statisticsJson(const PrecomputeOptions& options, const Scene& scene,
           {"memory",
            {{"peak_bytes", static_cast<uint64_t>(usage.ru_maxrss) * 1024},
             {"embree_bytes", s.value("embree_bytes")},
+            {"bytes_per_light", 0},
+            {"bytes_per_receiver", 0},
             {"file_bytes", fileBytes(options.output)}}}};
 }
 

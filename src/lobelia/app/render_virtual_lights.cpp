@@ -98,6 +98,7 @@ class VirtualLightRender {
     }
     first_.reset();
     if (context_.cancelled()) return;
+    if (set == 0 && !photons_) warnOfFewLights(parts, options_, context_);
     plan_.eye.nearDistance = nearDistanceOf(parts, options_);
     parts = reduceParts(tracer_, emitters_, camera_, plan_, set, std::move(parts), options_,
                         &report_.reduction, context_);

@@ -91,8 +91,8 @@ void writeStatistics(const std::string& file, const RenderOptions& options, cons
   json["gather"] = {{"strategy", gathers ? options.gather : "none"},
                     {"mode", options.gather == "sglc" && gathers ? cutModeOf(options) : ""},
                     {"bound", pairs ? boundOf(options) : ""},
-                    {"threshold", bounded ? thresholdOf(options) : 0},
-                    {"error", options.error},
+                    {"threshold", bounded ? Json(thresholdOf(options)) : Json()},
+                    {"error", gathers && options.error > 0 ? Json(options.error) : Json()},
                     {"near_lights", gathers ? nearLightsOf(options) : 0.f}};
   if (const ReductionReport& r = report.reduction; r.sets > 0) {
     json["gather"]["rows"] = r.rows;

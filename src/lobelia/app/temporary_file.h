@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -14,7 +15,7 @@ class TemporaryFile {
  public:
   TemporaryFile()
       : path_((std::filesystem::temp_directory_path() /
-               fmt::format("lobelia-cuts-{}", nanosecondsNow()))
+               fmt::format("lobelia-cuts-{}-{}", getpid(), nanosecondsNow()))
                   .string()) {}
   ~TemporaryFile() {
     std::error_code ignored;

@@ -85,6 +85,25 @@ class Pass {
   std::unordered_map<uint64_t, uint32_t> middles_;
 };
 
+// How much longer a vector can become, at most: of the squared map's eigenvalues none is above the
+// largest sum of a row's sizes. Without shear it is the longest of the axes' images; what rounding
+// leaves of right angles is none.
+float longestStretch(const Transform& toWorld) {
+  const Vec3f axes[] = {toWorld.vector({1, 0, 0}), toWorld.vector({0, 1, 0}),
+                        toWorld.vector({0, 0, 1})};
+  float longest = 0;
+  for (const Vec3f& a : axes) {
+    const float own = dot(a, a);
+    float others = 0;
+    for (const Vec3f& b : axes) {
+      const float both = std::abs(dot(a, b));
+      if (&a != &b && both > 1e-5f * std::sqrt(own * dot(b, b))) others += both;
+    }
+    longest = std::max(longest, others > 0 ? std::sqrt(own + others) : length(a));
+  }
+  return longest;
+}
+
 }  // namespace
 
 Mesh refined(Mesh mesh, float longest) {
@@ -96,8 +115,7 @@ void refine(Scene& scene, float longest) {
   std::vector<float> scales(scene.meshes.size(), 0.f);
   for (const Instance& instance : scene.instances) {
     float& scale = scales[instance.mesh.index];
-    for (const Vec3f axis : {Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(0, 0, 1)})
-      scale = std::max(scale, length(instance.toWorld.vector(axis)));
+    scale = std::max(scale, longestStretch(instance.toWorld));
   }
   for (size_t i = 0; i < scales.size(); ++i)
     if (scales[i] > 0) scene.meshes[i] = refined(std::move(scene.meshes[i]), longest / scales[i]);

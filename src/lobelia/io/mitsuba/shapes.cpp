@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "lobelia/io/mesh_io.h"
+#include "lobelia/io/mitsuba/read_at.h"
 #include "lobelia/io/mitsuba/reader.h"
 
 namespace lobelia::io::mitsuba {
@@ -145,9 +146,11 @@ MeshHandle Reader::fileMesh(Object& object, const std::string& type) {
                           std::to_string(options.shapeIndex);
   if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
   std::vector<Finding> found;
-  Mesh mesh = type == "obj"   ? readObj(path, options, object.where(), found)
-              : type == "ply" ? readPly(path, options, object.where(), found)
-                              : readSerialized(path, options, object.where(), found);
+  Mesh mesh = readAt(object.where(), [&] {
+    return type == "obj"   ? readObj(path, options, object.where(), found)
+           : type == "ply" ? readPly(path, options, object.where(), found)
+                           : readSerialized(path, options, object.where(), found);
+  });
   findings_.add(found);
   if (mesh.name.empty()) mesh.name = std::filesystem::path(path).stem().string();
   scene_.meshes.push_back(std::move(mesh));

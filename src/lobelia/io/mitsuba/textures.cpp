@@ -7,6 +7,7 @@
 // its uv. As in Mitsuba, the alpha channel of an image is dropped unless channel = "a" asks for it.
 
 #include "lobelia/io/image_io.h"
+#include "lobelia/io/mitsuba/read_at.h"
 #include "lobelia/io/mitsuba/reader.h"
 
 namespace lobelia::io::mitsuba {
@@ -212,7 +213,7 @@ ImageHandle Reader::image(const std::string& file, bool raw, float gamma, const 
   ImageOptions options;
   options.raw = raw;
   options.gamma = gamma;
-  scene_.images.push_back(readImage(path, options, where));
+  scene_.images.push_back(readAt(where, [&] { return readImage(path, options, where); }));
   const ImageHandle handle{static_cast<uint32_t>(scene_.images.size() - 1)};
   images_.emplace(key, handle);
   return handle;

@@ -51,7 +51,11 @@ class Lines {
 
 std::string readText(const std::string& file, const Location& from) {
   std::error_code error;
-  if (!fs::exists(file, error)) throw InputError(from, "the file '" + file + "' does not exist");
+  if (!fs::exists(file, error)) {
+    const std::string sought =
+        fs::path(file).is_absolute() ? "" : " in " + fs::current_path(error).string();
+    throw InputError(from, "the file '" + file + "' does not exist" + sought);
+  }
   if (fs::is_directory(file, error)) {
     throw InputError(from, "'" + file + "' is a folder; name the scene's .xml file");
   }
