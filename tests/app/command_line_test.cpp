@@ -229,12 +229,13 @@ TEST(CommandLine, PixelsAndCropAgreeWithTheWholePicture) {
   }
 }
 
+// timeout --foreground: without it, the signal comes twice, which means at once.
 TEST(CommandLine, InterruptWritesWhatThereIs) {
   const TemporaryFolder folder;
   for (const auto& [signal, code] : {std::pair{"INT", 130}, std::pair{"TERM", 143}}) {
     const std::string file = folder / (std::string(signal) + ".exr");
-    const std::string command = "timeout -s " + std::string(signal) + " --preserve-status 3 " +
-                                LOBELIA_PROGRAM +
+    const std::string command = "timeout --foreground -s " + std::string(signal) +
+                                " --preserve-status 3 " + LOBELIA_PROGRAM +
                                 " render cornell --detail 0.1 --size 64x64 --lights path --spp "
                                 "10000000 --threads 1 --quiet "
                                 "-o " +
@@ -255,8 +256,9 @@ TEST(CommandLine, InterruptAtAnyTime) {
   ASSERT_EQ(runProgram("scene cornell --detail 3 --quiet -o " + (folder / "s")).exitCode, 0);
   for (const char* seconds : {"0.3", "0.45", "0.6", "0.75", "0.9", "1.2"}) {
     const std::string file = folder / (std::string(seconds) + ".exr");
-    const std::string command = "timeout -s TERM --preserve-status " + std::string(seconds) + " " +
-                                LOBELIA_PROGRAM + " render " + (folder / "s/scene.xml") +
+    const std::string command = "timeout --foreground -s TERM --preserve-status " +
+                                std::string(seconds) + " " + LOBELIA_PROGRAM + " render " +
+                                (folder / "s/scene.xml") +
                                 " --size 32x32 --num-lights 100000000 --quiet -o " + file;
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 143) << seconds;
     if (std::filesystem::exists(file)) {
