@@ -253,8 +253,16 @@ TEST(BenchCuts, MaterialsOfOneVisibility) {
 }
 
 TEST(BenchCuts, LocalLights) {
+  const TemporaryFolder folder;
   const json result = runBench(
-      "cuts --scene cornell --detail 0.05 --size 32x24 --num-lights 512 --figures 9-local");
+      "cuts --scene cornell --detail 0.05 --size 32x24 --num-lights 512 --spp 32 --figures "
+      "7,9-local -o " +
+      folder.path());
+  const json& bounce = result["figure7"];
+  expectNumbers(bounce, 2, {"l2", "mean_ratio", "seconds"});
+  EXPECT_NEAR(bounce[0]["mean_ratio"].get<double>(), 1, 0.05) << "direct";
+  EXPECT_NEAR(bounce[1]["mean_ratio"].get<double>(), 1, 0.15) << "few samples";
+  expectPictures(folder, "cuts", {"figure7-cornell-direct-cuts", "figure7-cornell-bounce-path"});
   const json& data = result["figure9_local"];
   expectNumbers(data, 1,
                 {"vertices", "seconds", "cpu", "mrays", "mb", "cut", "rms", "fps128", "cpu128",

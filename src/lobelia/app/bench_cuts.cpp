@@ -58,7 +58,7 @@ Film emptyFrame(const Camera& camera) {
 }
 
 const std::vector<std::string>& cutsFigures() {
-  static const std::vector<std::string> figures{"5", "6", "8", "9", "9-local", "10", "sigma"};
+  static const std::vector<std::string> figures{"5", "6", "7", "8", "9", "9-local", "10", "sigma"};
   return figures;
 }
 
@@ -79,10 +79,11 @@ std::vector<BenchTable> benchCuts(const BenchOptions& options, Context& context)
     }
     report.writePage(options.commandLine);
   }
-  if (figures.contains("9-local") && !context.cancelled()) {
+  if ((figures.contains("7") || figures.contains("9-local")) && !context.cancelled()) {
     for (const std::string& scene : options.scenes.empty() ? kLocalScenes : options.scenes) {
       try {
-        if (!context.cancelled()) cutsLocalData(scene, study);
+        if (figures.contains("7") && !context.cancelled()) cutsBounce(scene, study);
+        if (figures.contains("9-local") && !context.cancelled()) cutsLocalData(scene, study);
       } catch (const Cancelled&) {  // the table has what there is
       }
     }

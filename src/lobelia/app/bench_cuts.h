@@ -6,6 +6,7 @@
 //  bench_cuts_wavelets.cpp  figure 8 (a): terms of cuts and of Haar wavelets (haar.h, study_tree.h)
 //  bench_cuts_materials.cpp figure 6: an object in many materials (bench_cuts_designs.h)
 //  bench_cuts_frames.h      frames for figures 6 and 10
+//  bench_cuts_bounce.cpp    figure 7: light of lamps, direct and with one bounce
 //  bench_cuts_data.cpp      figure 9: size and time of the data, frames per second
 //  bench_cuts_local.cpp     figure 9: the same under local lights
 //  bench_cuts_error.cpp     figure 10: error of frames by the size of the light cut; and by sigma
@@ -29,6 +30,7 @@ struct CutsStudy {
   size_t sampleCount() const;  // of directions; throws UsageError
 };
 
+inline constexpr float kLocalSigma = 0.85f;  // of surface data: RMS errors are about the paper's
 inline constexpr size_t kPaperLightCuts[] = {128, 256, 512};
 
 Film emptyFrame(const Camera& camera);
@@ -38,6 +40,7 @@ void cutsClusters(const std::string& scene, const Tracer& tracer, const StudyVer
                   bool figure5, bool figure8, const CutsStudy& study);
 void cutsWavelets(const std::string& scene, const StudyVertices& vertices, const CutsStudy& study);
 void cutsMaterials(const std::string& scene, const CutsStudy& study);
+void cutsBounce(const std::string& scene, const CutsStudy& study);
 void cutsData(const std::string& scene, const CutsStudy& study);
 void cutsLocalData(const std::string& scene, const CutsStudy& study);
 void cutsError(const std::string& scene, bool lightCuts, bool sigmas, const CutsStudy& study);

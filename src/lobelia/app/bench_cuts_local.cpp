@@ -144,8 +144,6 @@ class LocalStudy {
                       study_.sampleCount(), kLocalSigma, camera_.width, camera_.height, kFrames)}});
   }
 
-  static constexpr float kLocalSigma = 0.85f;  // RMS errors are about the paper's
-
   const std::string name_;
   const CutsStudy& study_;
   const BenchOptions options_;
