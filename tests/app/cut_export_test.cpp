@@ -343,7 +343,7 @@ TEST_F(CutExport, IsWrittenWholeOrRefused) {
                                      "trees/indirect.cuts.former.npy"};
   for (const std::string& file : old) test::writeText(folder_ / file, "old");
   test::writeText(folder_ / "trees/direct.notes.npy", "mine");
-  render(options, "c");
+  render(options, "a");
   for (const std::string& file : old) EXPECT_FALSE(std::filesystem::exists(folder_ / file)) << file;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "trees/direct.notes.npy"));
   EXPECT_EQ(test::readText(folder_ / "trees/description.json"), before);
