@@ -111,6 +111,7 @@ TEST_F(View, FramesTurnTheLightAndSayWhatTheyCost) {
   EXPECT_GT(stats["counts"]["evaluations_per_pixel"], 0);
   EXPECT_GT(stats["counts"]["merged_nodes_per_vertex"], 0);
   EXPECT_GT(stats["frames_per_second"], 0);
+  EXPECT_TRUE(stats["gather"]["threshold"].is_null() && stats["gather"]["error"].is_null());
   for (const char* stage : {"buffer", "light", "merge", "shade"})
     EXPECT_GT(stats["seconds"][stage], 0) << stage;
 }
@@ -143,6 +144,32 @@ TEST_F(View, SaysWhatItLeavesOut) {
                                      " --headless -o " + file("dark.exr"));
   EXPECT_EQ(r.exitCode, 0) << r.err;
   EXPECT_NE(r.err.find("no light from infinity"), std::string::npos) << r.err;
+
+  // What comes through glass depends on the data.
+  write(R"(<bsdf type="dielectric"/>)", R"(<emitter type="point">
+    <point name="position" value="0, 3, 0"/><rgb name="intensity" value="9"/></emitter>)");
+  const auto errors = [&](const std::string& options) {
+    const ProgramResult shown = runProgram("view " + file("scene.xml") + " --headless -o " +
+                                           file("glass.exr") + " " + options);
+    EXPECT_EQ(shown.exitCode, 0) << shown.err;
+    return shown.err;
+  };
+  const auto expectSaid = [](const std::string& said, const std::string& part) {
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  };
+  const std::string distant = " --data " + file("data"), near = " --data " + file("local");
+  EXPECT_EQ(runProgram("precompute " + file("scene.xml") +
+                       " --method cuts --light surfaces --samples 256 --clusters 16 --quiet -o " +
+                       file("local"))
+                .exitCode,
+            0);
+  precompute();
+  expectSaid(errors(distant), "1 surfaces transmit light: only their refl");
+  expectSaid(errors(near), "light of other surfaces is shown through smooth");
+  expectSaid(errors(distant + near), "no light from infinity is shown through");
+  const std::string only = "the data are of direct light alone";
+  expectSaid(errors(distant + " --component indirect"), only);
+  EXPECT_EQ(errors(near + " --component indirect").find(only), std::string::npos);
 }
 
 // A block on a floor beside a wall under a lamp: direct light and one bounce are what the path

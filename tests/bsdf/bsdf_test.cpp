@@ -188,6 +188,22 @@ TEST(Bsdf, FresnelAtNormalIncidence) {
               1e-5f);
 }
 
+// Without a step of the index of refraction the dielectric lobe is gone; the coat above stays.
+TEST(Bsdf, PrincipledCoatNeedsNoDielectricBelow) {
+  const Vec3f wo = normalize(Vec3f(0.3f, 0, 1)), wi{-wo.x, 0, wo.z};
+  for (const auto distribution : {Distribution::gtr1, Distribution::ggx}) {
+    Lobe lobe = microfacets(distribution, 0.1f, 0.1f, Fresnel::principled);
+    lobe.eta = Rgb(1.f), lobe.tint = Rgb(0.04f);
+    Bsdf bsdf;
+    bsdf.add(lobe);
+    if (distribution == Distribution::gtr1) {
+      EXPECT_GT(evaluate(bsdf, wo, wi).y, 0.1f);
+    } else {
+      EXPECT_EQ(evaluate(bsdf, wo, wi), Rgb{});
+    }
+  }
+}
+
 TEST(Bsdf, ExtremeInputStaysFinite) {
   Rng rng(21);
   for (const Example& e : examples()) {

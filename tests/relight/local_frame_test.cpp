@@ -23,15 +23,19 @@ Emitter pointLight(Vec3d at, Rgb intensity) {
   return light;
 }
 
+Material metal(float alpha) {
+  Material m;
+  m.type = MaterialType::roughConductor;
+  m.alphaU = m.alphaV = alpha;
+  return m;
+}
+
 // A closed room, lit by a point or by the lamp under its ceiling.
 Scene room(bool lamp, bool glossyFloor) {
   Scene scene = test::boxScene(lamp);
   if (!lamp) scene.emitters.push_back(pointLight({0.3, 0.6, 0.2}, Rgb(3, 2, 1)));
   if (glossyFloor) {
-    Material metal;
-    metal.type = MaterialType::roughConductor;
-    metal.alphaU = metal.alphaV = 0.3f;
-    scene.instances[test::floorWall].material = test::addMaterial(scene, metal);
+    scene.instances[test::floorWall].material = test::addMaterial(scene, metal(0.3f));
   }
   scene.cameras[0].width = 24, scene.cameras[0].height = 18;
   return scene;
@@ -216,6 +220,94 @@ TEST(LocalFrame, MovedLightsAndChangedMaterialsAreSeenAtOnce) {
   stage.scene.materials[0].diffuse = Rgb(0.3f, 0.25f, 0.2f);
   const Film darker = stage.film({.direct = false});
   EXPECT_NEAR(dimmer.rgb(100).y / darker.rgb(100).y, 4, 1e-3);
+}
+
+// Rays that follow smooth lobes cannot meet points.
+TEST(LocalFrame, PointsShineInLobesThatRaysFollow) {
+  Scene scene = room(false, false);
+  scene.instances[test::backWall].material = test::addMaterial(scene, metal(0.05f));
+  Stage stage(std::move(scene), 2);
+  const Film film = stage.film({.bounced = false});
+  float brightest = 0;
+  for (int y = 0; y < film.height; ++y)
+    for (int x = 0; x < film.width; ++x) {
+      const Ray ray =
+          generateRay(stage.scene.cameras[0],
+                      {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, {0.5f, 0.5f});
+      const Hit hit = *stage.tracer.intersect(ray);
+      if (hit.instance != test::backWall) continue;
+      const SurfacePoint at = surfacePoint(stage.scene, hit);
+      const Vec3f v = Vec3f(0.3f, 0.6f, 0.2f) - at.p;
+      const Rgb expected = Rgb(3, 2, 1) *
+                           evaluate(makeBsdf(stage.scene, at, -ray.d, 0), -ray.d, normalize(v)) /
+                           lengthSquared(v);
+      const Rgb value = film.rgb(static_cast<size_t>(y * film.width + x));
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(value[c], expected[c], 1e-3f * expected[c] + 1e-6f) << x << "," << y;
+      brightest = std::max(brightest, value.x);
+    }
+  EXPECT_GT(brightest, 1);
+}
+
+// What rays follow on is not counted as if it were diffuse, too.
+TEST(LocalFrame, SurfacesInMirrorsSendOnWhatNoRayFollows) {
+  Scene scene = room(false, false);
+  scene.instances[test::backWall].material = test::addMaterial(scene, metal(0.05f));
+  const SurfacePoint at =
+      surfacePoint(scene, {0, 1.f / 3, 1.f / 3, static_cast<uint32_t>(test::backWall), 0});
+  EXPECT_GT(bouncePoint(scene, at, at.ng, {}, 0).albedo.x, 0.2f);
+  EXPECT_EQ(bouncePoint(scene, at, at.ng, {}, 0.07f).albedo, Rgb{});
+  EXPECT_GT(bouncePoint(scene, at, at.ng, {}, 0.04f).albedo.x, 0.2f);
+}
+
+TEST(LocalFrame, BouncedLightAloneShowsNoBackgroundInMirrors) {
+  Scene scene = room(false, false);
+  ASSERT_EQ(scene.instances.size() - 1, static_cast<size_t>(test::frontWall));
+  scene.instances.pop_back();  // open behind the camera
+  Material mirror;
+  mirror.type = MaterialType::conductor;
+  scene.instances[test::backWall].material = test::addMaterial(scene, mirror);
+  Emitter sky;
+  sky.type = EmitterType::constant;
+  sky.radiance = Rgb(1000.f);
+  scene.emitters.push_back(sky);
+  Stage stage(std::move(scene), 2);
+  const Film bounced = stage.film({.direct = false}), all = stage.film({});
+  float most = 0, mostOfAll = 0;
+  for (const float v : bounced.layers.at("").values) most = std::max(most, v);
+  for (const float v : all.layers.at("").values) mostOfAll = std::max(mostOfAll, v);
+  EXPECT_LT(most, 10);
+  EXPECT_GT(mostOfAll, 100);
+}
+
+TEST(LocalFrame, CostIsWhatWasEvaluatedAtEachPixel) {
+  Stage stage(room(false, true), 2);
+  Film film;
+  film.width = film.fullWidth = stage.scene.cameras[0].width;
+  film.height = film.fullHeight = stage.scene.cameras[0].height;
+  film.addLayer("");
+  film.addLayer("cost", 1);
+  const auto cost = [&] {
+    double sum = 0;
+    for (const float v : film.layers.at("cost").values) sum += static_cast<double>(v);
+    return sum;
+  };
+  const auto render = [&](const LocalSettings& settings) {
+    stage.renderer.render(stage.renderer.light(settings, stage.context), stage.scene.cameras[0],
+                          settings, film, stage.context);
+  };
+  render({.spp = 2});
+  const auto counted = static_cast<double>(stage.context.statistics.count("evaluations"));
+  EXPECT_GT(counted, 0);
+  EXPECT_NEAR(cost() / (counted / 2), 1, 1e-6);
+  render({.spp = 2, .add = true});
+  EXPECT_NEAR(cost() / counted, 1, 1e-6);
+  // Direct light alone takes no nodes, and neither a cut nor the samples' light.
+  const uint64_t nodes = stage.context.statistics.count("cut_nodes");
+  const LocalSettings direct{.bounced = false};
+  stage.renderer.render({}, stage.scene.cameras[0], direct, film, stage.context);
+  EXPECT_EQ(cost(), 0);
+  EXPECT_EQ(stage.context.statistics.count("cut_nodes"), nodes);
 }
 
 TEST(LocalFrame, WantsDataOfSurfaces) {

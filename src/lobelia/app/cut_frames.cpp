@@ -15,6 +15,16 @@ const char* kindOf(const relight::VisibilityData& data) {
   return data.samples.kind == LightSamples::Kind::environment ? "environment" : "surfaces";
 }
 
+// What surfaces that transmit show: distant light knows visibility in front of surfaces alone;
+// local light comes through by shadow rays, and what other surfaces send on by rays through smooth
+// lobes (relight/local_mirror.h).
+const char* transmittedBy(const CutData& data) {
+  if (!data.surfaces) return "only their reflections are shown";
+  if (!data.environment) return "light of other surfaces is shown through smooth ones only";
+  return "no light from infinity is shown through them, and that of other surfaces through smooth "
+         "ones only";
+}
+
 }  // namespace
 
 CutData loadCutData(const std::vector<std::string>& files, const Scene& scene, Context& context) {
@@ -47,8 +57,7 @@ void warnOfMissing(const CutData& data, const Scene& scene, Context& context) {
   if (data.surfaces && near == 0)
     context.warning(
         "the scene has no local lights (point, spot, area, ...), which the data of --light "
-        "surfaces "
-        "are for");
+        "surfaces are for");
   if (!data.surfaces && near > 0 && far > 0)
     context.warning(
         fmt::format("{} of {} emitters are not at infinity: they are seen but light nothing; add "
@@ -57,15 +66,13 @@ void warnOfMissing(const CutData& data, const Scene& scene, Context& context) {
   if (!data.environment && far > 0)
     context.warning(
         fmt::format("{} of {} emitters are at infinity: they are seen but light nothing; add "
-                    "--data of `lobelia "
-                    "precompute --light environment` for them",
+                    "--data of `lobelia precompute --light environment` for them",
                     far, scene.emitters.size()));
   const auto clear =
       std::count_if(scene.instances.begin(), scene.instances.end(),
                     [&](const Instance& i) { return relight::transmits(scene, i.material); });
   if (clear > 0)
-    context.warning(
-        fmt::format("{} surfaces transmit light, of which only reflections are shown", clear));
+    context.warning(fmt::format("{} surfaces transmit light: {}", clear, transmittedBy(data)));
 }
 
 CutFrames::CutFrames(const Tracer& tracer, const CutData& data) : tracer_(tracer), data_(data) {}
@@ -102,7 +109,9 @@ void CutFrames::render(const CutSettings& settings, const Camera& camera, Film& 
                                      .bounced = bounced,
                                      .hideEmitters = hide || !direct,
                                      .add = distant_.has_value() && direct};
-  local_->render(local_->light(local, context), camera, local, film, context);
+  const relight::SurfaceLight light =
+      bounced ? local_->light(local, context) : relight::SurfaceLight{};
+  local_->render(light, camera, local, film, context);
 }
 
 }  // namespace lobelia::app

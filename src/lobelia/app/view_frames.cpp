@@ -64,6 +64,10 @@ ViewFrames::ViewFrames(const ViewOptions& options, const std::string& commandLin
       maker_(stage_, first_, options.render.seed) {
   requireOwnFiles(script_, options);
   if (stage_.hasCuts()) warnOfMissing(stage_.data(), stage_.scene(), context_);
+  if (stage_.hasCuts() && !stage_.data().surfaces && options.render.component == "indirect")
+    context_.warning(
+        "--component indirect: the data are of direct light alone, so frames by cuts are black; "
+        "add --data of `lobelia precompute --light surfaces`");
   view_.lightCut = options.lightCut;
   view_.refined = !options.plainLobes;
   view_.cutsSpp = std::max(options.render.spp, 1);

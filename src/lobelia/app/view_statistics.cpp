@@ -69,8 +69,8 @@ void writeViewStatistics(const ViewOptions& options, const Scene& scene, const C
   json["gather"] = {{"strategy", "cuts"},
                     {"mode", options.plainLobes ? "plain" : "refined"},
                     {"bound", ""},
-                    {"threshold", 0},
-                    {"error", 0},
+                    {"threshold", nullptr},
+                    {"error", nullptr},
                     {"light_cut", options.lightCut},
                     {"vertices", static_cast<uint64_t>(vertices)},
                     {"visibility_cut", ratio(nodes, vertices)}};

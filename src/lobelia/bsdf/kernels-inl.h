@@ -322,8 +322,9 @@ LOBELIA_HD V3<F> evaluateMicrofacetReflection(Distribution distribution, Fresnel
     v = microfacetDensity(distribution, p.alphaX, p.alphaY, h) * g;
     v = distribution == Distribution::gtr1 ? v * d.wi.z : v / (F(4.f) * d.wo.z);
   }
-  // Mitsuba's principled lobe vanishes with its dielectric term.
-  if (fresnel == Fresnel::principled) v = select(abs(p.eta.x - F(1.f)) < F(1e-6f), F(0.f), v);
+  // Mitsuba's principled lobe vanishes with its dielectric term; its clear coat does not.
+  if (fresnel == Fresnel::principled && distribution != Distribution::gtr1)
+    v = select(abs(p.eta.x - F(1.f)) < F(1e-6f), F(0.f), v);
   v = select(d.wi.z > F(0.f), select(cosine > F(0.f), v, F(0.f)), F(0.f));
   return p.weight * f * v;
 }

@@ -20,7 +20,7 @@ Rgb diffuseAlbedo(const Bsdf& bsdf, Vec3f wo) {
   Rgb sum{};
   for (int l = 0; l < bsdf.lobeCount; ++l) {
     const Lobe& lobe = bsdf.lobes[l];
-    if (!isTransmission(lobe.type) && !isMirror(lobe))
+    if (!isTransmission(lobe.type) && !isMirror(lobe) && !lobe.sharp)
       sum += lobeAlbedo(lobe, dot(bsdf.frameOf(lobe).n, wo));
   }
   return sum;
@@ -34,13 +34,14 @@ Vec3f meanDirection(Vec3f n) {
 
 }  // namespace
 
-BouncePoint bouncePoint(const Scene& scene, const SurfacePoint& at, Vec3f side, Vec2f numbers) {
+BouncePoint bouncePoint(const Scene& scene, const SurfacePoint& at, Vec3f side, Vec2f numbers,
+                        float followed) {
   BouncePoint point;
   const bool behind = dot(at.ng, side) < 0;
   point.at = {at.p, behind ? -at.ng : at.ng, at.error, numbers};
   point.n = behind ? -at.frame.n : at.frame.n;
   const Vec3f wo = meanDirection(point.n);
-  const Bsdf bsdf = makeBsdf(scene, at, wo, 0);
+  const Bsdf bsdf = makeBsdf(scene, at, wo, followed);
   point.albedo = diffuseAlbedo(bsdf, wo);
   point.at.asked = point.albedo != Rgb{};
   return point;
@@ -52,7 +53,7 @@ uint64_t bouncedLight(const Tracer& tracer, const LocalSources& sources,
   LitPoint lit[ShadowPacket::kSize];
   for (size_t i = 0; i < points.size(); ++i) lit[i] = points[i].at, radiance[i] = Rgb{};
   return addLocalLight(tracer, sources, {lit, points.size()}, areaPlaces, radiance,
-                       [&](size_t i, Vec3f wi, Rgb value) {
+                       [&](size_t i, Vec3f wi, Rgb value, bool /*point*/) {
                          const BouncePoint& point = points[i];
                          const float cosine = dot(point.n, wi);
                          if (!(cosine > 0) || !(dot(point.at.ng, wi) > 0)) return Rgb{};
@@ -96,7 +97,7 @@ std::vector<Rgb> SampleSurfaces::radiance(const Tracer& tracer, const LocalSourc
       if (hit.instance == kNoInstance) continue;
       Sampler random(hashCombine(context.seed, kStream), first + i, 0);
       points[i] = bouncePoint(tracer.scene(), surfacePoint(tracer.scene(), hit),
-                              normals_[first + i], random.next2D());
+                              normals_[first + i], random.next2D(), 0);
     }
     rays += bouncedLight(tracer, sources, {points, count}, areaPlaces, {out.data() + first, count});
   });

@@ -21,8 +21,10 @@ struct BouncePoint {
   Vec3f n;       // shading normal on the side that is lit
   Rgb albedo{};  // of the side
 };
-// side: a direction on the side that is lit. numbers: LitPoint.
-BouncePoint bouncePoint(const Scene& scene, const SurfacePoint& at, Vec3f side, Vec2f numbers);
+// side: a direction on the side that is lit. numbers: LitPoint. followed: roughness below which
+// rays follow lobes, which then do not count here; 0: none but mirrors.
+BouncePoint bouncePoint(const Scene& scene, const SurfacePoint& at, Vec3f side, Vec2f numbers,
+                        float followed);
 
 // Radiance that up to 16 points send on. Returns the rays traced.
 uint64_t bouncedLight(const Tracer& tracer, const LocalSources& sources,

@@ -45,11 +45,13 @@ class LocalRenderer {
   // The light of a frame at the samples, by the scene's materials as they are now. Seconds:
   // "light". Counts: "light_rays".
   SurfaceLight light(const LocalSettings& settings, Context& context) const;
-  // Fills the film's picture (layer "") or adds to it. Same seed, same pixels for any number of
+  // Fills the film's picture (layer "") and, where it has it, the layer "cost" (1 channel:
+  // evaluations of lobes for nodes, per sample), or adds to them. light: of no meaning where
+  // settings.bounced is off. Same seed, same pixels for any number of
   // threads. Seconds: "buffer", "cut", "merge", "direct", "shade": of the frame's time, shared out
   // as threads spent theirs. Counts: "frames", "pixels", "object_pixels", "vertices_merged",
   // "merged_nodes", "cut_nodes" (summed over pixels), "evaluations", "shadow_rays", "mirror_rays",
-  // "nonfinite". Throws Cancelled when the context is.
+  // "nonfinite" (as of FrameRenderer). Throws Cancelled when the context is.
   void render(const SurfaceLight& light, const Camera& camera, const LocalSettings& settings,
               Film& film, Context& context);
 

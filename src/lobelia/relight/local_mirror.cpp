@@ -53,13 +53,14 @@ uint64_t addMirrored(const LocalInput& input, std::span<LitPixel> pixels) {
       if (!rays[i].active) continue;
       const Vec3f wo = -rays[i].ray.d;
       if (!hits[i]) {
-        if (!input.settings.add) pixels[i].sum += rays[i].weight * input.emitters.escaped(-wo);
+        if (input.settings.direct && !input.settings.add)
+          pixels[i].sum += rays[i].weight * input.emitters.escaped(-wo);
         rays[i].active = false;
         continue;
       }
       const SurfacePoint at = surfacePoint(scene, *hits[i]);
       if (input.settings.direct) pixels[i].sum += rays[i].weight * input.emitters.emitted(at, wo);
-      bounces[i] = bouncePoint(scene, at, wo, rays[i].places);
+      bounces[i] = bouncePoint(scene, at, wo, rays[i].places, kSmoothest);
       weights[i] = rays[i].weight;
       any |= advance(at, makeBsdf(scene, at, wo, kSmoothest), wo, &rays[i]);
     }

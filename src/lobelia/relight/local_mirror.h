@@ -1,5 +1,6 @@
 // What lobes too smooth for light samples show: a ray for each pixel, on through further mirrors
-// and panes, to surfaces in the light of one bounce and to emitters themselves.
+// and panes, to surfaces in the light of one bounce and to emitters themselves. Rays do not meet
+// point-like emitters: their highlights are direct light of all lobes (LocalTile::addDirect).
 #pragma once
 
 #include "lobelia/relight/local_tile.h"

@@ -18,9 +18,10 @@ struct LitPoint {
   bool asked = true;
 };
 
-// Of up to 16 points. worth(i, wi, value): what `value`, irradiance across the direction wi, is
-// worth at point i; sums[i] grows by it where nothing is in the way. areaPlaces: of each area
-// emitter, >= 1; they follow a lattice from the point's numbers on. Returns the rays traced.
+// Of up to 16 points. worth(i, wi, value, point): what `value`, irradiance across the direction wi,
+// is worth at point i, and whether it is from a point-like source; sums[i] grows by it where
+// nothing is in the way. areaPlaces: of each area emitter, >= 1; they follow a lattice from the
+// point's numbers on. Returns the rays traced.
 template <class Worth>
 uint64_t addLocalLight(const Tracer& tracer, const LocalSources& sources,
                        std::span<const LitPoint> points, int areaPlaces, std::span<Rgb> sums,
@@ -39,7 +40,7 @@ uint64_t addLocalLight(const Tracer& tracer, const LocalSources& sources,
         const Vec3f u = directLightNumbers({0, point.numbers.x, point.numbers.y}, k, places);
         const auto light = sources.sample(source, point.p, {u.y, u.z});
         if (!light) continue;
-        values[i] = worth(i, light->wi, light->value * each);
+        values[i] = worth(i, light->wi, light->value * each, sources.isPoint(source));
         if (values[i] == Rgb{}) continue;
         packet.set(static_cast<int>(i), offsetOrigin(point.p, point.ng, point.error, light->wi),
                    light->target);

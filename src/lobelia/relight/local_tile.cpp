@@ -95,13 +95,14 @@ void LocalTile::addDirect(const LocalInput& input, std::span<LitPixel> pixels) {
   Rgb sums[kBlock] = {};
   for (size_t i = 0; i < pixels.size(); ++i) {
     const LitPixel& pixel = pixels[i];
-    points[i] = {pixel.at.p, pixel.at.ng, pixel.at.error, pixel.places,
-                 hasLobes(pixel.bsdf, LobeSet::rough)};
+    points[i] = {pixel.at.p, pixel.at.ng, pixel.at.error, pixel.places, !onlyDelta(pixel.bsdf)};
   }
   counts_.shadowRays +=
       addLocalLight(input.tracer, input.sources, {points, pixels.size()}, input.settings.areaPlaces,
-                    sums, [&](size_t i, Vec3f wi, Rgb value) {
-                      return evaluate(pixels[i].bsdf, pixels[i].wo, wi, LobeSet::rough) * value;
+                    sums, [&](size_t i, Vec3f wi, Rgb value, bool point) {
+                      // Rays that follow sharp lobes find areas, but no points.
+                      const LobeSet lobes = point ? LobeSet::all : LobeSet::rough;
+                      return evaluate(pixels[i].bsdf, pixels[i].wo, wi, lobes) * value;
                     });
   for (size_t i = 0; i < pixels.size(); ++i) pixels[i].sum += sums[i];
 }
@@ -121,6 +122,7 @@ void LocalTile::addBounced(const LocalInput& input, LitPixel& pixel) {
     lights.rows[v] = vertices_.rows(place.slot[v]);
     lights.weight[v] = place.weight[v];
   }
+  const uint64_t evaluated = counts_.evaluations;
   gatherNearLight(lights, cut_.chunks, pixel.at.p, pixel.normal, &light_);
   for (int l = 0; l < pixel.bsdf.lobeCount; ++l) {
     const Lobe& lobe = pixel.bsdf.lobes[l];
@@ -135,6 +137,7 @@ void LocalTile::addBounced(const LocalInput& input, LitPixel& pixel) {
       pixel.sum += sumLobe(query, light_, light_.lit.data(), &counts_.evaluations);
     }
   }
+  evaluations_[pixels_[pixel.pixel].index] += counts_.evaluations - evaluated;
 }
 
 LocalCounts LocalTile::render(const LocalInput& input, const TileArea& area, Film& film) {
@@ -142,20 +145,22 @@ LocalCounts LocalTile::render(const LocalInput& input, const TileArea& area, Fil
   counts_ = {};
   vertices_.mergedVertices = vertices_.mergedNodes = 0;
   sums_.assign(kTileSize * kTileSize, Rgb{});
+  evaluations_.assign(kTileSize * kTileSize, 0);
   for (int sample = 0; sample < input.settings.spp; ++sample) {
     Clock clock;
     makeSurfaces(input, area, film, sample);
     clock.lap(&counts_.bufferNs);
-    if (!surfaces_.empty()) {
+    if (input.settings.bounced && !surfaces_.empty()) {
       makePixelGroups(surfaces_, &groups_);
       selector_.select(input.light, groups_, input.settings.nodeCount, &cut_);
       vertices_.begin(input.light.sums, cut_.cut, input.data.cuts, input.settings.cacheBytes);
       light_.reserve(cut_.cut.padded() / kChunk);
+      counts_.cutNodes += surfaces_.size() * cut_.cut.count;
     }
     clock.lap(&counts_.cutNs);
     for (size_t first = 0, end; first < surfaces_.size(); first = end) {
       end = input.settings.bounced ? placeVertices(input, first) : surfaces_.size();
-      vertices_.mergeNew();
+      if (input.settings.bounced) vertices_.mergeNew();
       clock.lap(&counts_.mergeNs);
       for (size_t i = first; i < end; i += kBlock) {
         const std::span<LitPixel> block(&surfaces_[i], std::min(kBlock, end - i));
@@ -168,7 +173,6 @@ LocalCounts LocalTile::render(const LocalInput& input, const TileArea& area, Fil
       clock.lap(&counts_.shadeNs);
     }
     counts_.objectPixels += surfaces_.size();
-    counts_.cutNodes += surfaces_.size() * cut_.cut.count;
     finish(input);
   }
   counts_.vertices = vertices_.mergedVertices, counts_.mergedNodes = vertices_.mergedNodes;
@@ -177,7 +181,9 @@ LocalCounts LocalTile::render(const LocalInput& input, const TileArea& area, Fil
     counts_.firstBad = static_cast<uint32_t>((area.y0 + pixel / kTileSize) * film.width + area.x0 +
                                              pixel % kTileSize);
   }
-  writeTile(sums_, 1 / static_cast<float>(input.settings.spp), input.settings.add, area, &film);
+  const float scale = 1 / static_cast<float>(input.settings.spp);
+  writeTile(sums_, scale, input.settings.add, area, &film);
+  writeTileCost(evaluations_, scale, input.settings.add, area, &film);
   return counts_;
 }
 

@@ -50,7 +50,8 @@ class LocalTile {
   std::vector<TilePixel> pixels_;
   std::vector<LitPixel> surfaces_;  // of the pixels that meet one
   std::vector<PixelGroup> groups_;
-  std::vector<Rgb> sums_;  // of the samples, by pixel
+  std::vector<Rgb> sums_;              // of the samples, by pixel
+  std::vector<uint64_t> evaluations_;  // the same
   TileCutSelector selector_;
   TileCut cut_;
   TileVertices vertices_;

@@ -4,8 +4,7 @@
 // infinity that is right: a node is as bright and as large for every pixel. Light from surfaces is
 // not: the wall next to a pixel wants fine nodes and the one across the room coarse ones. So each
 // tile of the frame selects its own cut, with the same number of nodes, by what a node's extent
-// may cost the pixels that want it finest
-// (group_error.h). Intensity is part of the error.
+// may cost the pixels that want it finest (group_error.h). Intensity is part of the error.
 #pragma once
 
 #include <span>

@@ -81,8 +81,9 @@ const std::map<std::string, CommandTexts>& texts() {
         "Pictures come from precomputed visibility (--data): light from infinity (environments, "
         "suns, directional emitters) that arrives straight at the first surface, and light of "
         "lamps in the scene with one bounce of it, each by data of its own. Light, materials and "
-        "camera may be other ones than before; the geometry may not. Of materials that transmit "
-        "light only reflections are shown. In the window, and in scripts, the methods of `render` "
+        "camera may be other ones than before; the geometry may not. Light from infinity does not "
+        "come through materials that transmit; light of lamps does, straight, and what is behind "
+        "smooth ones is seen. In the window, and in scripts, the methods of `render` "
         "draw all light, pass by pass.",
         {{"DATA", "Visibility cuts of the scene's vertices"},
          {"*.exr", "Scene-linear RGB (sRGB primaries, 32-bit float), and metadata"},
