@@ -95,6 +95,20 @@ TEST(CameraControl, APannedPointFollowsTheHand) {
   EXPECT_NEAR(after.y - before.y, -0.05 * 400, 0.01);
 }
 
+// In a window of another shape, too, of whose width a hand moves a share.
+TEST(CameraControl, WidthsAreThoseOfTheFittedFilm) {
+  CameraControl control(lookingAt({3, 2, 4}, {0, 1, 0}), kScene);
+  control.setPivot({0, 1, 0});
+  for (const Vec2i size : {Vec2i(1600, 300), Vec2i(300, 1600)}) {
+    const Vec2f before = *app::project(control.fitted(size.x, size.y), {0, 1, 0});
+    const double widths = control.widths(size.x, size.y);
+    control.pan(0.1 * widths, -0.05 * widths);
+    const Vec2f after = *app::project(control.fitted(size.x, size.y), {0, 1, 0});
+    EXPECT_NEAR(after.x - before.x, 0.1 * size.x, 0.05);
+    EXPECT_NEAR(after.y - before.y, -0.05 * size.x, 0.05);
+  }
+}
+
 TEST(CameraControl, DollyComesNearerAndNeverThrough) {
   CameraControl control(lookingAt({0, 1, 5}, {0, 1, 0}), kScene);
   control.setPivot({0, 1, 0});

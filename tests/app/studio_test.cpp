@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -297,6 +298,11 @@ TEST_F(StudioTest, CutsRefuseWhatTheirDataDoNotKnowAndGoOn) {
   ASSERT_TRUE(settle(*studio));
   EXPECT_NE(studio->newestPicture()->film.layers.at("").values, before->film.layers.at("").values);
   EXPECT_EQ(said(*studio), "") << "once is enough";
+  studio->undo();
+  ASSERT_TRUE(settle(*studio));
+  studio->redo();
+  ASSERT_TRUE(settle(*studio));
+  EXPECT_NE(said(*studio).find("from behind"), std::string::npos) << "but for every time";
   // Path tracing shows it, masks as well.
   view.method = ViewMethod::path, view.spp = 4;
   studio->setView(view);
@@ -408,8 +414,90 @@ TEST_F(StudioTest, PicksWhatLiesUnderAPlace) {
   ASSERT_TRUE(pickAt({0.5f, 0.5f}));
   EXPECT_TRUE(picked->hit);
   EXPECT_EQ(studio->design().materials.at(picked->material.index).name, "paint");
+  EXPECT_LT(length(picked->bounds.lo - Vec3f(-0.5f, 0.05f, -0.5f)), 1e-5f) << "the block's";
+  EXPECT_LT(length(picked->bounds.hi - Vec3f(0.5f, 1.05f, 0.5f)), 1e-5f);
   ASSERT_TRUE(pickAt({0.01f, 0.01f}));
   EXPECT_FALSE(picked->hit);
+}
+
+// Whoever sleeps until then misses nothing.
+TEST_F(StudioTest, WakesTheWindowForWhatIsNew) {
+  StudioSettings settings;
+  settings.scene.scene = file("scene.xml");
+  std::atomic<int> woken{0};
+  settings.wake = [&] { ++woken; };
+  Context context;
+  Studio studio(settings, context);
+  const auto news = [&](const auto& ask) {
+    woken = 0;
+    ask();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while ((woken == 0 || studio.isBusy()) && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      studio.update();
+    }
+    return studio.takeNews() && woken > 0;
+  };
+  ViewState view = sized(studio.view());
+  view.spp = 1;
+  EXPECT_TRUE(news([&] { studio.setView(view); }));
+  EXPECT_NE(studio.newestPicture(), nullptr);
+  EXPECT_TRUE(news([&] { studio.loadBump(file("none.png"), 0, 1); }));
+  EXPECT_NE(said(studio), "");
+  EXPECT_TRUE(news([&] { studio.pick({0.5f, 0.5f}); }));
+  EXPECT_NE(studio.takePicked(), nullptr);
+  EXPECT_FALSE(studio.takeNews()) << "once";
+}
+
+TEST_F(StudioTest, WhatIsReadIsNotWrittenOver) {
+  writeText(file("old.xml"), "<scene version=\"3.0.0\"/>");
+  StudioSettings settings;
+  settings.scene.scene = file("scene.xml");
+  settings.scene.design = file("old.xml");
+  Context context;
+  Studio studio(settings, context);
+  studio.saveDesign(file("old.xml"));
+  ASSERT_TRUE(settle(studio));
+  EXPECT_NE(said(studio).find("over what is read"), std::string::npos);
+  EXPECT_EQ(readText(file("old.xml")), "<scene version=\"3.0.0\"/>");
+}
+
+TEST_F(StudioTest, SavingFromAnotherCameraLeavesThePictureAlone) {
+  const auto studio = open(false);
+  ViewState view = sized(studio->view());
+  view.spp = 2;
+  studio->setView(view);
+  ASSERT_TRUE(settle(*studio));
+  const auto before = studio->newestPicture();
+  Camera camera = view.camera;
+  camera.fovX = 0.3f;
+  studio->saveDesign(file("design.xml"), camera);
+  ASSERT_TRUE(settle(*studio));
+  EXPECT_EQ(studio->newestPicture(), before);
+  EXPECT_NE(readText(file("design.xml")).find("<sensor"), std::string::npos);
+}
+
+TEST(Desk, AFirstPictureIsGivenSomeTimeAndNoMore) {
+  Desk desk;
+  Context context(&desk);
+  ASSERT_TRUE(desk.begin(context, true));
+  desk.want({std::make_shared<const Design>(), {}});
+  context.progress("trace", 0.1);
+  EXPECT_FALSE(context.cancelled());
+  std::this_thread::sleep_for(std::chrono::milliseconds(2100));
+  context.progress("trace", 0.2);
+  EXPECT_TRUE(context.cancelled()) << "though nothing else was wanted since";
+  desk.end();
+}
+
+TEST_F(StudioTest, FieldsThatNoTextureDrivesSaySo) {
+  const auto studio = open(false);
+  const uint32_t m = paint(*studio);
+  studio->edit("type", [&](Design& d) { changeType(d, m, MaterialType::roughConductor); });
+  const auto design = studio->history().share();
+  studio->loadTexture(file("any.png"), m, "distribution");
+  EXPECT_NE(said(*studio).find("cannot be a texture"), std::string::npos);
+  EXPECT_EQ(studio->history().share(), design);
 }
 
 }  // namespace

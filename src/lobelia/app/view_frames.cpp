@@ -94,7 +94,8 @@ void ViewFrames::render() {
       history_.endEdit();
     }
   }
-  context_.info(fmt::format("{:.2f} frames per second", framesPerSecond(context_.statistics)));
+  if (context_.statistics.count("frames") > 0)  // by cuts
+    context_.info(fmt::format("{:.2f} frames per second", framesPerSecond(context_.statistics)));
   if (context_.statistics.count("nonfinite") > 0)
     context_.warning(fmt::format("{} values are not finite; they are left out",
                                  context_.statistics.count("nonfinite")));

@@ -1,8 +1,7 @@
 // Designs: small files of changes to a scene, of any format, that are applied when it is read.
 //
 // A design is a Mitsuba scene without shapes; what it has takes the place of what the scene has:
-//  - <bsdf id="NAME">: the material of that name; a <ref id="NAME"/> inside it, where nothing in
-//  the
+//  - <bsdf id="NAME">: the material of that name; a <ref id="NAME"/> inside it, where nothing in the
 //    design is called so, is the scene's material of that name;
 //  - <emitter>: an environment (constant, envmap, sky) that of the scene (the first, of several); a
 //    sun that of the scene; others the emitter that has their id as its name (area emitters their
@@ -32,7 +31,7 @@ DesignParts applyDesign(const std::string& file, const ReadSettings& settings, S
 // images need not be there; `now`: with all of them, the first of each those of `before`. Images
 // are named where they came from, relative to the file, when they are read as the same from there;
 // others are written into a folder beside it (FILE without suffix, "_textures"). Throws
-// RuntimeError; then there is no such file.
+// RuntimeError; then the file is as it was.
 void writeDesign(const std::string& file, const Scene& before, const Scene& now);
 
 // What a design calls them.

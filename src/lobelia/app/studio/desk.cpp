@@ -15,9 +15,11 @@ void Desk::want(Wanted wanted) {
     const std::scoped_lock lock(mutex_);
     const bool other = newest_.design != wanted.design || !samePicture(newest_.view, wanted.view) ||
                        !sameTruth(newest_.view, wanted.view);
+    if (newest_.design != wanted.design) lastSaid_.clear();  // of another design it is news
     newest_ = wanted;
     wanted_ = std::move(wanted);
     const bool patient = runningFirst_ && nanosecondsNow() - since_ < kPatience;
+    if (other) outdated_ = true;
     if (other && running_ && !runningJob_ && !patient) running_->cancel();
   }
   wake_.notify_one();
@@ -70,12 +72,17 @@ size_t Desk::openJobs() const {
 
 bool Desk::isBusy() const {
   const std::scoped_lock lock(mutex_);
-  return pictureOpen_ || wanted_ || jobRuns_ || !jobs_.empty();
+  return pictureOpen_ || wanted_ || jobRuns_ || !jobs_.empty() || !arrivals_.empty();
 }
 
 Desk::Task Desk::next(bool canGoOn, bool open, Job* job, Wanted* wanted) {
   std::unique_lock lock(mutex_);
-  pictureOpen_ = open;
+  if (pictureOpen_ != open) {
+    pictureOpen_ = open;
+    lock.unlock();
+    ring();
+    lock.lock();
+  }
   wake_.wait(lock, [&] { return stop_ || canGoOn || wanted_ || !jobs_.empty(); });
   if (stop_) return Task::stop;
   if (!jobs_.empty()) {
@@ -95,6 +102,7 @@ bool Desk::begin(Context& context, bool first) {
   const std::scoped_lock lock(mutex_);
   if (stop_ || wanted_ || !jobs_.empty()) return false;
   running_ = &context, runningFirst_ = first, runningJob_ = false;
+  outdated_ = false;
   since_ = nanosecondsNow();
   return true;
 }
@@ -111,29 +119,53 @@ void Desk::end() {
 }
 
 void Desk::endJob() {
-  const std::scoped_lock lock(mutex_);
-  running_ = nullptr, jobRuns_ = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    running_ = nullptr, jobRuns_ = false;
+  }
+  ring();
 }
 
 void Desk::publish(std::shared_ptr<const Picture> picture, bool truth) {
-  const std::scoped_lock lock(mutex_);
-  (truth ? truth_ : picture_) = std::move(picture);
+  {
+    const std::scoped_lock lock(mutex_);
+    (truth ? truth_ : picture_) = std::move(picture);
+  }
+  ring();
 }
 
 void Desk::arrive(Arrival arrival) {
-  const std::scoped_lock lock(mutex_);
-  arrivals_.push_back(std::move(arrival));
+  {
+    const std::scoped_lock lock(mutex_);
+    arrivals_.push_back(std::move(arrival));
+  }
+  ring();
+}
+
+void Desk::ring() {
+  news_ = true;
+  if (wakeWindow_) wakeWindow_();
 }
 
 void Desk::message(Severity severity, std::string_view text) {
   if (severity == Severity::debug) return;
+  {
+    const std::scoped_lock lock(mutex_);
+    // What every pass has to say is said once, or not at all; errors end what they are of.
+    const bool rendering = running_ && !runningJob_ && severity != Severity::error;
+    if (rendering && (severity == Severity::info || lastSaid_ == text)) return;
+    lastSaid_ = text;
+    if (messages_.size() == kMostMessages) messages_.pop_front();
+    messages_.push_back({severity, std::string(text)});
+  }
+  ring();
+}
+
+// Who has stopped dragging need not wait for the end of a slow picture of before.
+void Desk::progress(std::string_view, double) {
   const std::scoped_lock lock(mutex_);
-  // What every pass has to say is said once, or not at all.
-  const bool rendering = running_ && !runningJob_;
-  if (rendering && (severity == Severity::info || lastSaid_ == text)) return;
-  lastSaid_ = text;
-  if (messages_.size() == kMostMessages) messages_.pop_front();
-  messages_.push_back({severity, std::string(text)});
+  const bool late = nanosecondsNow() - since_ >= kPatience;
+  if (outdated_ && late && running_ && !runningJob_) running_->cancel();
 }
 
 }  // namespace lobelia::app

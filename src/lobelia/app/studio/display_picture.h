@@ -12,7 +12,7 @@ namespace lobelia::app {
 
 // luminance: of the picture, in its units (W / (sr m^2) where the scene's are, weighted as
 // luminance). illuminance: irradiance, pi times what a white diffuse surface in every place shows
-// (ViewState:: white), weighted likewise; light straight from emitters alone. cost:
+// (ViewState::white), weighted likewise; light straight from emitters alone. cost:
 // ViewState::cost. samples: per pixel. error: |picture - truth| over the truth's luminance (and 1 %
 // of its mean) where there is a truth, else the estimated standard error over the picture's.
 enum class Shown : uint8_t { picture, luminance, illuminance, cost, samples, error };

@@ -42,6 +42,14 @@ FieldPlace findField(const Design& design, uint32_t material, const std::string&
                                       suggestion(word, words), fmt::join(words, ", ")));
 }
 
+FieldPlace findTexturable(const Design& design, uint32_t material, const std::string& word,
+                          const Location& where) {
+  FieldPlace place = findField(design, material, word, where);
+  if (!place.field->texturable)
+    throw InputError(where, fmt::format("{} cannot be a texture", place.field->word));
+  return place;
+}
+
 Rgb fieldValue(const Material& m, const MaterialField& f) {
   switch (f.kind) {
     case FieldKind::color:

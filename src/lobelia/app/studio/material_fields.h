@@ -52,6 +52,9 @@ std::vector<FieldPlace> fieldPlaces(const Design& design, uint32_t material);
 // The field of a word, with its prefix. Throws InputError with near words and those that there are.
 FieldPlace findField(const Design& design, uint32_t material, const std::string& word,
                      const Location& where);
+// The same, of a field that a texture can drive.
+FieldPlace findTexturable(const Design& design, uint32_t material, const std::string& word,
+                          const Location& where);
 
 // Values; x alone for all kinds but colours.
 Rgb fieldValue(const Material& material, const MaterialField& field);

@@ -18,7 +18,7 @@ constexpr uint64_t kTruthStream = 0x7475746874ull, kLookStream = 0x6c6f6f6bull;
 // Passes grow: a first one is soon there, later ones cost less around them.
 int samplesOf(const PassMean& mean, int most) {
   const int wanted = std::clamp(mean.samples() / 2, 1, kMostSamples);
-  return std::min(wanted, most - mean.samples());
+  return std::max(std::min(wanted, most - mean.samples()), 1);
 }
 
 bool mayBeSmaller(const ViewState& view) {

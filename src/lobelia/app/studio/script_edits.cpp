@@ -89,9 +89,7 @@ void changeMaterial(const ScriptStep& step, Design& design) {
 
 void changeTexture(const ScriptStep& step, Design& design) {
   const uint32_t material = named(design.materials, "material", step.words[0], step.where);
-  const FieldPlace place = findField(design, material, step.words[1], step.where);
-  if (!place.field->texturable)
-    throw InputError(step.where, fmt::format("{} cannot be a texture", place.field->word));
+  const FieldPlace place = findTexturable(design, material, step.words[1], step.where);
   const auto image = readImageFile(step.file, place.field->kind != FieldKind::color);
   setFieldTexture(design.materials[place.material], *place.field, addBitmap(design, image));
 }

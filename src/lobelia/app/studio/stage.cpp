@@ -1,6 +1,7 @@
 #include "lobelia/app/studio/stage.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/render_frame.h"
@@ -63,7 +64,7 @@ void Stage::exchangeImages(const std::vector<std::shared_ptr<StoredImage>>& want
   for (const auto& image : taken_) scene_.images.push_back(std::move(image->pixels));
 }
 
-bool Stage::fill(const Design& design, Use use) {
+void Stage::fill(const Design& design, Use use) {
   const bool sameImages = taken_ == design.images;
   if (!sameImages) exchangeImages(design.images);
   scene_.materials = design.materials;
@@ -74,8 +75,9 @@ bool Stage::fill(const Design& design, Use use) {
   std::vector<Emitter> emitters =
       forCuts(use) ? design.emitters : turnedEmitters(design, design.rotation);
   const bool same = sameImages && sameLight(emitters, scene_.emitters);
-  if (!same) scene_.emitters = std::move(emitters);
-  return same;
+  if (same) return;  // in the same memory
+  scene_.emitters = std::move(emitters);
+  lightStands_ = false;
 }
 
 void Stage::requireCuts(uint64_t geometry, const Location& where) const {
@@ -93,17 +95,17 @@ void Stage::requireCuts(uint64_t geometry, const Location& where) const {
 void Stage::show(std::shared_ptr<const Design> design, Use use, const Location& where,
                  Context& context) {
   if (shown_ == design && use_ == use) return;
-  const bool sameEmitters = fill(*design, use);
   try {
+    fill(*design, use);
     // Without masks, now and in what rays meet, nothing of it can have changed.
     const bool masks = hasMasks();
     const uint64_t geometry = masks || masked_ ? relight::geometryHash(scene_) : tracedGeometry_;
     if (forCuts(use)) requireCuts(geometry, where);
-    const bool sameRays = geometry == tracedGeometry_;
-    if (!sameRays) prepareRays(geometry, masks);
-    if (!sameRays || !sameEmitters) prepareLight(context);
+    if (geometry != tracedGeometry_) prepareRays(geometry, masks);
+    if (!lightStands_) prepareLight(context);
   } catch (...) {
-    if (shown_ && !fill(*shown_, use_)) prepareLight(context);
+    // Should that fail as well, nothing is shown, and the next design is prepared as a whole.
+    if (auto before = std::exchange(shown_, nullptr)) show(std::move(before), use_, where, context);
     throw;
   }
   shown_ = std::move(design);
@@ -115,18 +117,21 @@ void Stage::prepareRays(uint64_t geometry, bool masks) {
   Context own;
   auto tracer = std::make_unique<Tracer>(scene_, own);
   cuts_.reset(), emitters_.reset();
+  lightStands_ = false;
   tracer_ = std::move(tracer);
   tracedGeometry_ = geometry, masked_ = masks;
 }
 
 void Stage::prepareLight(Context& context) {
   const StageTimer timer(context, "prepare");
+  lightStands_ = false;
   auto emitters = std::make_unique<EmitterSampler>(scene_, tracer_->bounds());
   if (hasCuts()) {
     if (!cuts_) cuts_ = std::make_unique<CutFrames>(*tracer_, data_);
     cuts_->relight(*emitters);
   }
   emitters_ = std::move(emitters);
+  lightStands_ = true;
 }
 
 void Stage::requireValid(const Location& where) const {

@@ -50,8 +50,7 @@ class Stage {
   Film renderPass(const Camera& camera, const RenderOptions& options, Context& context);
 
  private:
-  // True when emitters are the same, in the same memory.
-  bool fill(const Design& design, Use use);
+  void fill(const Design& design, Use use);
   void exchangeImages(const std::vector<std::shared_ptr<StoredImage>>& wanted);
   bool hasMasks() const;
   void requireCuts(uint64_t geometry, const Location& where) const;
@@ -67,6 +66,7 @@ class Stage {
   bool masked_;              // is any of it?
   std::unique_ptr<Tracer> tracer_;
   std::unique_ptr<EmitterSampler> emitters_;
+  bool lightStands_ = false;  // emitters_ and cuts_ are of the scene's emitters
   std::unique_ptr<CutFrames> cuts_;
   std::vector<std::shared_ptr<StoredImage>> taken_;  // whose pixels the scene has
   std::shared_ptr<const Design> shown_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <exception>
 #include <filesystem>
 
@@ -22,8 +23,24 @@ std::string fileName(const std::string& file) {
 
 std::vector<std::string> inputsOf(const StudioSettings& settings) {
   std::vector<std::string> files = settings.data;
-  files.insert(files.end(), {settings.scene.scene, settings.scene.environment});
+  files.insert(files.end(),
+               {settings.scene.scene, settings.scene.design, settings.scene.environment});
   return files;
+}
+
+Design firstDesign(const Scene& scene, double rotation) {
+  Design design = designOf(scene);
+  design.rotation = std::fmod(rotation, 360);
+  return design;
+}
+
+Bounds3f boundsOf(const Scene& scene, const Instance& instance) {
+  Bounds3f box;
+  const Mesh& mesh = scene[instance.mesh];
+  for (const Vec3u& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i)
+      if (const Vec3f p = instance.toWorld.point(mesh.positions[t[i]]); isFinite(p)) box.add(p);
+  return box;
 }
 
 // Of one that an edit added and another has taken away.
@@ -42,8 +59,9 @@ Studio::Studio(const StudioSettings& settings, Context& context)
       hasCuts_(stage_->hasCuts()),
       name_(stage_->scene().name),
       bounds_(stage_->tracer().bounds()),
-      history_(designOf(stage_->scene())),
-      first_(history_.share()) {
+      history_(firstDesign(stage_->scene(), settings.rotation)),
+      first_(history_.share()),
+      desk_(settings.wake) {
   view_.camera = history_.now().cameras.front();
   view_.cutsDepth = stage_->cutsDepth();
   if (!hasCuts_) view_.method = ViewMethod::path;
@@ -87,7 +105,7 @@ void Studio::loadTexture(const std::string& file, uint32_t material, const std::
   FieldKind kind;
   try {
     requireMaterial(design(), material);
-    kind = findField(design(), material, word, {}).field->kind;
+    kind = findTexturable(design(), material, word, {}).field->kind;
   } catch (const InputError& e) {
     return desk_.message(Severity::error, e.what());
   }
@@ -97,7 +115,7 @@ void Studio::loadTexture(const std::string& file, uint32_t material, const std::
                   nullptr,
                   [=](Design& d) {
                     requireMaterial(d, material);
-                    const FieldPlace place = findField(d, material, word, {});
+                    const FieldPlace place = findTexturable(d, material, word, {});
                     const TextureHandle texture = addBitmap(d, image);
                     setFieldTexture(d.materials[place.material], *place.field, texture);
                   },
@@ -147,18 +165,19 @@ void Studio::loadDesign(const std::string& file) {
   });
 }
 
-void Studio::saveDesign(const std::string& file) {
-  desk_.give(
-      [this, file, now = history_.share(), camera = view_.camera](Stage& stage, Context& context) {
-        requireNoInput({file}, inputs_);
-        stage.show(now, Stage::Use::paths, {}, context);
-        stage.save(file, *first_, camera);
-        context.info("wrote " + file);
-      });
+void Studio::saveDesign(const std::string& file, const Camera& camera) {
+  desk_.give([this, file, now = history_.share(), camera](Stage& stage, Context& context) {
+    requireNoInput({file}, inputs_);
+    stage.show(now, Stage::Use::paths, {}, context);
+    stage.save(file, *first_, camera);
+    context.info("wrote " + file);
+  });
 }
 
 void Studio::screenshot(const std::string& file, const DisplaySettings& display) {
-  const std::shared_ptr<const Picture> picture = newestPicture(), truth = newestTruth();
+  const std::shared_ptr<const Picture> picture = newestPicture();
+  // As it is shown: the truth of an earlier split is none.
+  const auto truth = display.split >= 0 ? newestTruth() : nullptr;
   desk_.give([this, file, display, picture, truth](Stage&, Context& context) {
     if (!picture) throw UsageError("there is no picture yet");
     requireNoInput({file}, inputs_);
@@ -182,11 +201,15 @@ void Studio::pick(Vec2f place) {
       picked->hit = true;
       picked->point = at.p;
       picked->normal = at.ng;
+      picked->bounds = boundsOf(stage.scene(), instance);
       picked->material = instance.material;
       picked->emitter = instance.emitter;
     }
-    const std::scoped_lock lock(pickedMutex_);
-    picked_ = std::move(picked);
+    {
+      const std::scoped_lock lock(pickedMutex_);
+      picked_ = std::move(picked);
+    }
+    desk_.ring();
   });
 }
 

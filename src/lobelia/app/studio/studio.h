@@ -26,6 +26,9 @@ struct StudioSettings {
   SceneOptions scene;
   std::vector<std::string> data;  // files of `lobelia precompute`; none: without cuts
   uint64_t seed = 0;
+  double rotation = 0;  // of the light from infinity, to begin with; degrees
+  // Called by any thread when update(), the newest pictures, messages or a pick have something new.
+  std::function<void()> wake;
 };
 
 class PictureMaker;
@@ -35,6 +38,7 @@ struct Picked {
   Vec2f place;       // that was asked for
   bool hit = false;  // or nothing does
   Vec3f point, normal;
+  Bounds3f bounds;          // of the instance, in the world
   MaterialHandle material;  // of the design
   EmitterHandle emitter;
 };
@@ -77,7 +81,8 @@ class Studio {
   // Light from infinity stands as the file has it: the rotation becomes 0 when it has emitters. The
   // camera becomes the file's, if it has one.
   void loadDesign(const std::string& file);
-  void saveDesign(const std::string& file);  // and where the camera is
+  void saveDesign(const std::string& file, const Camera& camera);
+  void saveDesign(const std::string& file) { saveDesign(file, view_.camera); }
   // The newest picture: .exr as it is, linear; .png as displayPicture() shows it.
   void screenshot(const std::string& file, const DisplaySettings& display);
   // How many of these are under way.
@@ -87,6 +92,9 @@ class Studio {
   // the answer comes a little later.
   void pick(Vec2f place);
   std::shared_ptr<const Picked> takePicked();  // null: no answer yet
+
+  // Has the worker come up with anything since the last call?
+  bool takeNews() { return desk_.takeNews(); }
 
   // Takes in what the worker has read. True when the design or the camera is another.
   bool update();

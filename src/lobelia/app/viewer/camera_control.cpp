@@ -77,16 +77,19 @@ void CameraControl::write() {
   camera_.toWorld = Transform(placement(position_, forward_, up_) * own_);
 }
 
+// A wider film: as high as before.
+double CameraControl::widths(int width, int height) const {
+  const double own = static_cast<double>(camera_.width) / camera_.height;
+  return std::max(static_cast<double>(width) / height / own, 1.);
+}
+
 Camera CameraControl::fitted(int width, int height) const {
   Camera out = camera_;
-  const double own = static_cast<double>(camera_.width) / camera_.height;
-  const double wanted = static_cast<double>(width) / height;
+  const double wider = widths(width, height);
   out.width = width;
   out.height = height;
   out.cropX0 = out.cropY0 = out.cropX1 = out.cropY1 = 0;
-  if (wanted <= own) return out;
-  // A wider film: as high as before.
-  const double wider = wanted / own;
+  if (wider <= 1) return out;
   if (camera_.type == CameraType::perspective) {
     out.fovX = static_cast<float>(
         2 * std::atan(std::tan(0.5 * static_cast<double>(camera_.fovX)) * wider));

@@ -20,6 +20,8 @@ class CameraControl {
   const Camera& camera() const { return camera_; }
   // The same view on a film of so many pixels: what the camera's own film shows stays in sight.
   Camera fitted(int width, int height) const;
+  // How many widths of the camera's own film that view shows.
+  double widths(int width, int height) const;
 
   // About the pivot; radians to the right and up.
   void orbit(double right, double up);

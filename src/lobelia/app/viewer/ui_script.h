@@ -8,8 +8,8 @@
 //   drag-picture BUTTON X,Y X,Y     BUTTON: left, right, middle, with shift+, ctrl+ or alt+ before
 //   wheel X,Y STEPS                 up: positive
 //   key NAME                        a letter, a digit, F1 ... F12, Tab, Enter, Escape, Delete,
-//   Space;
-//                                   with shift+, ctrl+ or alt+ before
+//                                   Backspace, Space, Home, Left, Right, Up, Down; with shift+,
+//                                   ctrl+ or alt+ before
 //   drop FILE                       a file from the desktop
 //   wait                            until the engine has drawn what was asked for
 //   frames N                        so many frames of the window

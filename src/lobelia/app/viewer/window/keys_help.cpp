@@ -14,7 +14,7 @@ constexpr std::pair<const char*, const char*> kKeys[]{
     {"W A S D, Q E", "fly: ahead, left, back, right, down, up (Shift: faster)"},
     {"right drag while flying", "look around"},
     {"click", "select the material under the cursor; the pivot goes there"},
-    {"F", "look at what is under the cursor, from half as far"},
+    {"F", "look at the whole of what is under the cursor"},
     {"R", "the scene's camera again"},
     {"C", "copy the camera as a line of a script"},
     {"Alt + left drag", "turn the light from infinity"},

@@ -89,7 +89,7 @@ void drawDisplayPanel(UiState& ui) {
       ui.widgets.quiet(fmt::format("truth: {} samples, error about {:.2g} %", ui.truth->samples,
                                    ui.truth->relativeError * 100));
     else
-      ui.widgets.quiet("the truth converges when nothing else is to be drawn");
+      ui.widgets.quiet("the truth begins when the first picture is there");
   }
   ImGui::PopID();
 }

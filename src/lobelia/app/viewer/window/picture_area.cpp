@@ -107,16 +107,20 @@ void PictureArea::drawSplit(UiState& ui) {
 }
 
 void PictureArea::pickAt(UiState& ui, Vec2f at, bool framing) {
-  framing_ = framing;
-  ui.studio.pick(toShare(at));
+  const Vec2f place = toShare(at);
+  if (framing) framed_ = place;
+  ui.studio.pick(place);
 }
 
 // The engine answers some frames later.
 void PictureArea::takePicked(UiState& ui) {
   const std::shared_ptr<const Picked> picked = ui.studio.takePicked();
-  if (!picked || !picked->hit) return;
-  if (framing_) {
-    ui.control.approach(picked->point);
+  if (!picked) return;
+  const bool framing = framed_ == picked->place;
+  if (framing) framed_.reset();
+  if (!picked->hit) return;
+  if (framing) {
+    ui.control.frame(picked->bounds);
     ui.moved();
     return;
   }
@@ -173,9 +177,11 @@ void PictureArea::dragCamera(UiState& ui, Vec2f by) {
     case Drag::look:
       ui.control.look(right * std::numbers::pi / 2, -down * std::numbers::pi / 2);
       break;
-    case Drag::pan:
-      ui.control.pan(right, down);
+    case Drag::pan: {
+      const double widths = ui.control.widths(ui.view.width, ui.view.height);
+      ui.control.pan(right * widths, down * widths);
       break;
+    }
     case Drag::dolly:
       ui.control.dolly(std::exp(down * 4));
       break;

@@ -40,7 +40,7 @@ class PictureArea {
   Drag drag_ = Drag::none;
   bool clicked_ = false;  // pressed and not moved yet
   Vec2f pressedAt_, last_;
-  bool framing_ = false;  // what the next answer to a pick is for
+  std::optional<Vec2f> framed_;  // the pick whose answer is to be framed
 };
 
 }  // namespace lobelia::app

@@ -36,13 +36,7 @@ UiState::UiState(Studio& engine, const Camera& first)
   screenshotFile = "picture.exr";
 }
 
-void UiState::saveDesign() {
-  ViewState own = view;
-  own.camera = control.camera();
-  studio.setView(own);
-  studio.saveDesign(designFile);
-  studio.setView(view);
-}
+void UiState::saveDesign() { studio.saveDesign(designFile, control.camera()); }
 
 DisplaySettings UiState::shownDisplay() const {
   DisplaySettings out = display;

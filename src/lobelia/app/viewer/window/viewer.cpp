@@ -12,9 +12,9 @@
 namespace lobelia::app {
 namespace {
 
-// Seconds asleep at most: while something moves, while pictures are to come, and else, for what
-// shows by itself. Input ends each.
-constexpr double kSettling = 1 / 60., kDrawing = 1 / 30., kIdle = 0.5;
+// Seconds asleep at most: while something moves, and else, for what shows by itself. Input and the
+// engine end either.
+constexpr double kSettling = 1 / 60., kIdle = 0.5;
 constexpr int kSettlingFrames = 3;  // Dear ImGui shows some things a frame late
 
 // By name or, as `render` takes it, by index. Throws UsageError when there is none.
@@ -40,6 +40,8 @@ Viewer::Viewer(const ViewOptions& options, Studio& studio, Surface& surface, Con
   UiState& ui = ui_.state();
   ui.view.lightCut = options.lightCut;
   ui.view.refined = !options.plainLobes;
+  ui.view.areaPlaces = options.areaPlaces;
+  ui.view.component = options.render.component;
   ui.display.exposure = options.render.exposure;
   if (options.render.spp > 0) ui.view.spp = options.render.spp;
   if (!options.uiScript.empty()) player_.emplace(readUiScript(options.uiScript), stage());
@@ -49,7 +51,8 @@ void Viewer::run() {
   int settling = kSettlingFrames;
   while (!surface_.closing() && !context_.cancelled() && !(player_ && player_->finished())) {
     if (player_) settling = kSettlingFrames;
-    surface_.wait(settling > 0 ? kSettling : picturesToCome() ? kDrawing : kIdle);
+    surface_.wait(settling > 0 ? kSettling : kIdle);
+    if (studio_.takeNews()) settling = kSettlingFrames;
     for (const std::string& file : surface_.takeDropped()) takeFile(ui_.state(), file);
     if (studio_.update()) arrived();
     if (showNewest() || inputCame()) settling = kSettlingFrames;
@@ -92,8 +95,6 @@ void Viewer::recover() {
                         "of the design is lost");
 }
 
-bool Viewer::picturesToCome() const { return studio_.isBusy() || studio_.view().truth; }
-
 // Or something moves by itself, after input that came before.
 bool Viewer::inputCame() {
   return surface_.takeInput() || ImGui::IsAnyMouseDown() || ui_.state().moving();
@@ -114,12 +115,13 @@ bool Viewer::showNewest() {
   UiState& ui = ui_.state();
   auto picture = studio_.newestPicture();
   auto truth = ui.split ? studio_.newestTruth() : nullptr;
-  if (picture == ui.picture && truth == ui.truth && !ui.showDirty && !ui.measureCurve) return false;
+  const bool measure = ui.measureCurve && picture && !picture->white;
+  if (picture == ui.picture && truth == ui.truth && !ui.showDirty && !measure) return false;
   ui.picture = std::move(picture);
   ui.truth = std::move(truth);
   ui.showDirty = false;
   if (!ui.picture || !surface_.drawable()) return true;
-  if (ui.measureCurve && !ui.picture->white) {
+  if (measure) {
     ui.display.curve = measureToneCurve(ui.picture->film, {});
     ui.measureCurve = false;
   }

@@ -28,7 +28,6 @@ class Viewer {
   void pause();
   void recover();
   bool inputCame();
-  bool picturesToCome() const;
   void arrived();
   bool showNewest();
   UiStage stage();

@@ -65,6 +65,8 @@ std::unique_ptr<Studio> load(const ViewOptions& options, Surface& surface, Conte
   settings.scene = options.render.scene;
   settings.data = options.data;
   settings.seed = options.render.seed;
+  settings.rotation = options.rotate;
+  settings.wake = Surface::wake;
   std::future<std::unique_ptr<Studio>> loading =
       std::async(std::launch::async, [&] { return std::make_unique<Studio>(settings, context); });
   const CancelUnlessDone guard{loading, context};
