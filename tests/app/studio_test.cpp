@@ -195,6 +195,21 @@ TEST_F(StudioTest, MethodsConvergeTowardsTheTruth) {
   }
 }
 
+TEST_F(StudioTest, ATruthOfSomethingElseGoes) {
+  const auto studio = open(false);
+  ViewState view = sized(studio->view());
+  view.truth = true, view.spp = 2;
+  studio->setView(view);
+  ASSERT_TRUE(loopUntil(*studio, [&] { return studio->newestTruth() != nullptr; }));
+  view.truth = false;
+  studio->setView(view);
+  ASSERT_TRUE(settle(*studio));
+  EXPECT_NE(studio->newestTruth(), nullptr) << "nothing else is wanted";
+  paintIn(*studio, Rgb(0.9f, 0.1f, 0.1f));
+  ASSERT_TRUE(settle(*studio));
+  EXPECT_EQ(studio->newestTruth(), nullptr);
+}
+
 // No crash, no leak, and in the end the picture of what there is in the end.
 TEST_F(StudioTest, StandsThousandsOfRapidEdits) {
   const auto studio = open(true);

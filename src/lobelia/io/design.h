@@ -1,8 +1,8 @@
 // Designs: small files of changes to a scene, of any format, that are applied when it is read.
 //
 // A design is a Mitsuba scene without shapes; what it has takes the place of what the scene has:
-//  - <bsdf id="NAME">: the material of that name; a <ref id="NAME"/> inside it, where nothing in the
-//    design is called so, is the scene's material of that name;
+//  - <bsdf id="NAME">: the material of that name; a <ref id="NAME"/> inside it, where nothing in
+//    the design is called so, is the scene's material of that name;
 //  - <emitter>: an environment (constant, envmap, sky) that of the scene (the first, of several); a
 //    sun that of the scene; others the emitter that has their id as its name (area emitters their
 //    radiance), or a new one;

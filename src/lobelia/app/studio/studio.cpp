@@ -250,6 +250,9 @@ void Studio::work() {
         workJob(std::exchange(job, {}));
         break;
       case Desk::Task::wanted:
+        // A truth of something else would pass for this one's.
+        if (!maker.truthStands(wanted.design, wanted.view) && desk_.truth())
+          desk_.publish(nullptr, true);
         maker.want(std::move(wanted.design), wanted.view);
         break;
       case Desk::Task::go:

@@ -98,7 +98,8 @@ class Studio {
 
   // Takes in what the worker has read. True when the design or the camera is another.
   bool update();
-  // The newest picture and truth; null: none yet. The same pointer as before: nothing new.
+  // The newest picture and truth; null: none yet. The same pointer as before: nothing new. Where
+  // something else is wanted, the picture stays until there is another; the truth goes.
   std::shared_ptr<const Picture> newestPicture() const { return desk_.picture(); }
   std::shared_ptr<const Picture> newestTruth() const { return desk_.truth(); }
   // Is the picture, the truth left out, or a file not done?
