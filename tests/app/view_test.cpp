@@ -214,6 +214,26 @@ TEST_F(View, LocalLightsAndOneBounceAreThePathTracersPicture) {
   EXPECT_EQ(other.exitCode, 3) << other.err;
 }
 
+// A pane before the eye: under an even sky all that is behind it is as bright as its light.
+TEST_F(View, TheSkyIsSeenThroughPanes) {
+  const std::string pane = R"(<shape type="rectangle"><transform name="to_world"><scale value="9"/>
+    <lookat origin="2.9, 4.2, 5.7" target="3, 5, 6" up="0, 1, 0"/></transform>
+    <bsdf type="thindielectric"/></shape>)";
+  const std::string point = R"(<emitter type="point"><point name="position" value="1, 2, 2"/>
+    <rgb name="intensity" value="5"/></emitter>)";
+  write(kDiffuse, kSky + point + pane);
+  precompute();
+  const ProgramResult r = runProgram("precompute " + file("scene.xml") +
+                                     " --method cuts --light surfaces --samples 512 --clusters 16 "
+                                     "--quiet -o " +
+                                     file("local"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const Film film = view("--spp 256 --data " + file("local"), "pane.exr");
+  const Film path = reference();
+  const Rgb seen = film.rgb(0), right = path.rgb(0);  // above the floor's edge
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], right[c], 0.05f * right[c]) << c;
+}
+
 TEST_F(View, DataOfBothKindsAddUp) {
   const std::string point = R"(<emitter type="point"><point name="position" value="1, 2, 2"/>
     <rgb name="intensity" value="5"/></emitter>)";

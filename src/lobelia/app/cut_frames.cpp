@@ -102,13 +102,15 @@ void CutFrames::render(const CutSettings& settings, const Camera& camera, Film& 
                      film, context);
   }
   if (!local_) return;
-  const relight::LocalSettings local{.spp = settings.spp,
-                                     .nodeCount = settings.lightCut,
-                                     .areaPlaces = settings.areaPlaces,
-                                     .direct = direct,
-                                     .bounced = bounced,
-                                     .hideEmitters = hide || !direct,
-                                     .add = distant_.has_value() && direct};
+  const relight::LocalSettings local{
+      .spp = settings.spp,
+      .nodeCount = settings.lightCut,
+      .areaPlaces = settings.areaPlaces,
+      .direct = direct,
+      .bounced = bounced,
+      .hideEmitters = hide || !direct,
+      .add = distant_.has_value() && direct,
+      .toScene = transpose(relight::turnOfLight(tracer_.scene(), settings.rotation))};
   const relight::SurfaceLight light =
       bounced ? local_->light(local, context) : relight::SurfaceLight{};
   local_->render(light, camera, local, film, context);

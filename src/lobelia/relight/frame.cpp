@@ -77,6 +77,10 @@ struct FrameRenderer::Impl {
   std::vector<std::unique_ptr<FrameTile>> free;
 };
 
+Mat4 turnOfLight(const Scene& scene, double degrees) {
+  return rotation(verticalOf(scene), degrees);
+}
+
 FrameRenderer::FrameRenderer(const Tracer& tracer, const EmitterSampler& emitters,
                              const VisibilityData& data)
     : impl_(std::make_unique<Impl>(tracer, emitters, data)) {}
@@ -90,7 +94,7 @@ void FrameRenderer::relight(const EmitterSampler& emitters) {
 FrameLight FrameRenderer::light(double degrees, const LightCutSettings& settings,
                                 Context& context) const {
   const StageTimer timer(context, "light");
-  const Mat4 turned = rotation(verticalOf(impl_->tracer.scene()), degrees);
+  const Mat4 turned = turnOfLight(impl_->tracer.scene(), degrees);
   return makeFrameLight(impl_->light, turned, impl_->data.samples, impl_->data.tree, impl_->lookup,
                         settings);
 }

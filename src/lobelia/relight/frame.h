@@ -23,6 +23,10 @@ struct FrameSettings {
   size_t cacheBytes = size_t{64} << 20;
 };
 
+// Takes directions of light from infinity as the scene has it to the world, when it is turned about
+// the first environment's vertical axis (else +y).
+Mat4 turnOfLight(const Scene& scene, double degrees);
+
 // What the frames of a scene share; keeps references.
 class FrameRenderer {
  public:

@@ -23,8 +23,10 @@ struct LocalSettings {
   bool direct = true;      // off: bounced light alone
   bool bounced = true;     // off: direct light alone
   bool hideEmitters = false;
-  // Adds to the film's picture, which has emission and what lies behind all surfaces already.
+  // Adds to the film's picture, which has emission and what lies behind all surfaces already, in
+  // mirrors, too; not through panes.
   bool add = false;
+  Mat4 toScene{};  // takes directions of the world to light from infinity as the scene has it
   size_t cacheBytes = size_t{64} << 20;  // each thread's, for what vertices see
 };
 

@@ -8,6 +8,7 @@ constexpr size_t kMost = ShadowPacket::kSize;
 
 struct MirrorRay {
   bool active = false;
+  bool through = false;  // did it pass the pixel's surface?
   Ray ray;
   Rgb weight{1.f};
   Vec2f places{}, u{};
@@ -37,6 +38,7 @@ uint64_t addMirrored(const LocalInput& input, std::span<LitPixel> pixels) {
     const LitPixel& pixel = pixels[i];
     rays[i].places = pixel.places, rays[i].u = pixel.mirrored, rays[i].lobe = pixel.lobe;
     any |= advance(pixel.at, pixel.bsdf, pixel.wo, &rays[i]);
+    rays[i].through = dot(rays[i].ray.d, pixel.normal) < 0;
   }
   uint64_t count = 0;
   for (int event = 0; any && event < kMostEvents; ++event) {
@@ -53,8 +55,8 @@ uint64_t addMirrored(const LocalInput& input, std::span<LitPixel> pixels) {
       if (!rays[i].active) continue;
       const Vec3f wo = -rays[i].ray.d;
       if (!hits[i]) {
-        if (input.settings.direct && !input.settings.add)
-          pixels[i].sum += rays[i].weight * input.emitters.escaped(-wo);
+        if (input.settings.direct && (!input.settings.add || rays[i].through))
+          pixels[i].sum += rays[i].weight * escaped(input, -wo);
         rays[i].active = false;
         continue;
       }

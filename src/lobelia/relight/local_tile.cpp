@@ -203,7 +203,7 @@ void LocalTile::finish(const LocalInput& input) {
   }
   if (!emission) return;
   for (const TilePixel& pixel : pixels_)
-    if (!pixel.hit) add(pixel, input.emitters.escaped(pixel.ray.d));
+    if (!pixel.hit) add(pixel, escaped(input, pixel.ray.d));
 }
 
 }  // namespace lobelia::relight

@@ -23,6 +23,11 @@ struct LocalInput {
   uint64_t seed = 0;
 };
 
+// Light from infinity as a ray in this direction meets it.
+inline Rgb escaped(const LocalInput& input, Vec3f direction) {
+  return input.emitters.escaped(normalize(input.settings.toScene.vector(direction)));
+}
+
 struct LocalCounts {
   int64_t bufferNs = 0, cutNs = 0, mergeNs = 0, directNs = 0, shadeNs = 0;
   uint64_t objectPixels = 0, vertices = 0, mergedNodes = 0, cutNodes = 0, evaluations = 0,
