@@ -417,8 +417,9 @@ TEST_F(View, ScriptsChooseMethodsAndShowErrors) {
   write(R"(<bsdf type="diffuse" id="paint"/>)", kSky);
   writeText(file("script.txt"),
             "method path 3\nframe 2\nmaterial paint type dielectric\nframe\ntruth 6\n"
-            "false-colour error\nsplit 0.5\nscreenshot error.png\nfalse-colour illuminance 0 4\n"
-            "frame\nscreenshot light.png\nfalse-colour cost\nmethod sglc\nframe\n"
+            "false-colour error\nsplit 0.5\nscreenshot error.png\nsplit off\n"
+            "false-colour illuminance 0 4\nframe\nscreenshot light.png\nfalse-colour cost\nmethod "
+            "sglc\nframe\n"
             "screenshot cost.png\nscreenshot cost.exr\n");
   const std::string play =
       "view " + file("scene.xml") + " --headless --quiet --script " + file("script.txt") + " -o ";
@@ -471,12 +472,15 @@ TEST_F(View, ScriptsSayWhatIsWrongWithEdits) {
   refused("redo", "nothing to do again");
   refused("method paths", "did you mean 'path'");
   refused("false-colour red", "luminance");
+  refused("light add constant 0,0,0 1,1,1 glow", "from all around already");
   refused("false-colour cost 1", "two numbers");
   refused("split 2", "from 0 to 1");
   refused("truth 0", "a number from 1");
   refused("save none/x.xml", "there is no folder");
   refused("save scene.xml", "over what is read");
   refused("screenshot x.gif", ".exr or .png");
+  writeText(file("bad.txt"), "frame\nsplit 0.5\nscreenshot x.png\n");
+  expectFailure(command("--script " + file("bad.txt"), "x%d.exr"), 3, "truth 16");
   writeText(file("bad.txt"), "screenshot x.png\nframe\n");
   expectFailure(command("--script " + file("bad.txt"), "x.exr"), 3, "there is no picture yet");
   writeText(file("bad.txt"), "frame\n");

@@ -231,6 +231,10 @@ void ViewFrames::splitAt(const ScriptStep& step) {
 void ViewFrames::screenshot(const ScriptStep& step) const {
   if (!picture_)
     throw InputError(step.where, "there is no picture yet; add a line before it: frame");
+  if (display_.split >= 0 && !truth_)
+    throw InputError(step.where,
+                     "there is no truth of this picture to split it with; add a line after its "
+                     "frame: truth 16");
   if (const std::string why = whyNotShown(*picture_, truth_.get(), display_.shown); !why.empty())
     throw InputError(step.where, why);
   DisplaySettings settings = display_;
@@ -284,7 +288,9 @@ void ViewFrames::renderFrame(const Frame& frame) {
     picture_->film.metadata["lobelia:frame"] = std::to_string(frame.number);
   Film film = picture_->film;
   for (const char* layer : {"cost", "samples", "error"}) film.layers.erase(layer);
-  writeOutputs(film, frame.options, curve_, context_);
+  // White surfaces would set another exposure than the pictures before and after them.
+  std::optional<ToneCurve> whiteCurve;
+  writeOutputs(film, frame.options, view_.white ? whiteCurve : curve_, context_);
 }
 
 }  // namespace lobelia::app

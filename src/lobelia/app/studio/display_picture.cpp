@@ -170,11 +170,14 @@ Displayed displayPicture(const Picture& picture, const Picture* truth,
 
 std::string whyNotShown(const Picture& picture, const Picture* truth, Shown shown) {
   if (shown == Shown::illuminance && !picture.white)
-    return "the picture is not of white surfaces, which illuminance is measured on";
+    return "the picture is not of white surfaces, which illuminance is measured on; choose this "
+           "colour "
+           "before the picture is drawn";
   if (shown == Shown::cost && !picture.film.layers.contains("cost"))
-    return "the picture has not counted its cost";
+    return "the picture has not counted its cost; choose this colour before it is drawn";
   if (shown == Shown::error && truth == nullptr && !picture.film.layers.contains("error"))
-    return "there is neither a truth nor a second pass to know the error from";
+    return "there is neither a truth of this picture nor a second pass to know the error from; let "
+           "the truth be drawn after it";
   return "";
 }
 

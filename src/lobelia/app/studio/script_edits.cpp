@@ -118,6 +118,20 @@ void changeEmitter(const ScriptStep& step, Design& design) {
   setEmitterValue(emitter, info.field, value);
 }
 
+// A design has one at most (io/design.h), which takes the place of the scene's.
+void requireNoEnvironment(const ScriptStep& step, const Design& design) {
+  const auto is = [](const Emitter& e) {
+    return e.type == EmitterType::constant || e.type == EmitterType::environment;
+  };
+  const auto at = std::find_if(design.emitters.begin(), design.emitters.end(), is);
+  if (at == design.emitters.end()) return;
+  throw InputError(step.where,
+                   fmt::format("there is light from all around already: the emitter '{}'; change "
+                               "it by `emitter`, or exchange it by `environment FILE`",
+                               io::designName(design.emitters,
+                                              static_cast<size_t>(at - design.emitters.begin()))));
+}
+
 void addLight(const ScriptStep& step, Design& design) {
   const auto& w = step.words;
   if (w.size() < 4)
@@ -131,6 +145,7 @@ void addLight(const ScriptStep& step, Design& design) {
     throw InputError(step.where, fmt::format("a light cannot be '{}'{}; it may be {}", w[1],
                                              suggestion(w[1], known), fmt::join(known, ", ")));
   const EmitterType type = kTypes[at - known.begin()];
+  if (type == EmitterType::constant) requireNoEnvironment(step, design);
   const Vec3f place = numbers(w[2], 3, step.where);
   const Rgb light = numbers(w[3], 3, step.where);
   requireRange(light, 0, 1e9f, 3, "the light", step.where);
