@@ -12,6 +12,8 @@
 //  bench_cuts_error.cpp     figure 10: error of frames by the size of the light cut; and by sigma
 #pragma once
 
+#include <optional>
+
 #include "lobelia/app/bench_figures.h"
 #include "lobelia/app/bench_scene.h"
 #include "lobelia/relight/frame.h"
@@ -40,6 +42,9 @@ void cutsClusters(const std::string& scene, const Tracer& tracer, const StudyVer
                   bool figure5, bool figure8, const CutsStudy& study);
 void cutsWavelets(const std::string& scene, const StudyVertices& vertices, const CutsStudy& study);
 void cutsMaterials(const std::string& scene, const CutsStudy& study);
+// Data of light from a scene's surfaces; none, and a word about it, where no light is local.
+std::optional<relight::VisibilityData> surfaceData(const std::string& scene, const Tracer& tracer,
+                                                   const char* figure, const CutsStudy& study);
 void cutsBounce(const std::string& scene, const CutsStudy& study);
 void cutsData(const std::string& scene, const CutsStudy& study);
 void cutsLocalData(const std::string& scene, const CutsStudy& study);

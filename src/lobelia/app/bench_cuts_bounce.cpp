@@ -2,13 +2,10 @@
 // path tracer. The paper shows pictures without a reference.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "lobelia/app/bench_cuts.h"
 #include "lobelia/app/bench_cuts_frames.h"
 #include "lobelia/film/metrics.h"
 #include "lobelia/relight/local_frame.h"
-#include "lobelia/relight/local_sources.h"
 
 namespace lobelia::app {
 namespace {
@@ -25,21 +22,10 @@ class BounceStudy {
 
   void run() {
     BenchScene scene = sceneOf(2);
-    const std::vector<Emitter>& emitters = scene.tracer().scene().emitters;
-    if (std::none_of(emitters.begin(), emitters.end(),
-                     [](const Emitter& e) { return relight::isLocal(e.type); })) {
-      study_.context.info(name_ + " has no local lights: it is left out of figure 7");
-      return;
-    }
-    study_.progress(name_, "data of surfaces");
-    relight::PrecomputeSettings settings;
-    settings.light = relight::LightSamples::Kind::surfaces;
-    settings.sigma = kLocalSigma;
-    settings.sampleCount = study_.sampleCount();
-    study_.context.seed = study_.options.seed;
-    const relight::VisibilityData data =
-        relight::precomputeVisibility(scene.tracer(), settings, study_.context);
-    relight::LocalRenderer renderer(scene.tracer(), scene.emitters(), data);
+    const std::optional<relight::VisibilityData> data =
+        surfaceData(name_, scene.tracer(), "7", study_);
+    if (!data) return;
+    relight::LocalRenderer renderer(scene.tracer(), scene.emitters(), *data);
     BenchScene bounced = sceneOf(3);
     add("direct", false, scene, renderer);
     add("direct and one bounce", true, bounced, renderer);

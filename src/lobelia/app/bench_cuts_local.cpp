@@ -43,29 +43,20 @@ class LocalStudy {
         tracer_(scene_, study.context) {}
 
   void run() {
-    if (std::none_of(emitters_.begin(), emitters_.end(),
-                     [](const Emitter& e) { return relight::isLocal(e.type); })) {
-      study_.context.info(name_ + " has no local lights: it is left out of figure 9-local");
-      return;
-    }
-    study_.progress(name_, "data of surfaces");
-    relight::PrecomputeSettings settings;
-    settings.light = relight::LightSamples::Kind::surfaces;
-    settings.sigma = kLocalSigma;
-    settings.sampleCount = study_.sampleCount();
     const Statistics& s = study_.context.statistics;
     const uint64_t rays = s.count("shadow_rays");
-    study_.context.seed = options_.seed;
     const int64_t start = nanosecondsNow();
     const double busy = processorSeconds();
-    const relight::VisibilityData data =
-        relight::precomputeVisibility(tracer_, settings, study_.context);
-    const double made = 1e-9 * static_cast<double>(nanosecondsNow() - start);
+    const std::optional<relight::VisibilityData> made =
+        surfaceData(name_, tracer_, "9-local", study_);
+    if (!made) return;
+    const relight::VisibilityData& data = *made;
+    const double seconds = 1e-9 * static_cast<double>(nanosecondsNow() - start);
     const double worked = processorSeconds() - busy;
     const double megabytes = 1e-6 * savedBytes(data, scene_);
     std::vector<BenchCell> row = {name_,
                                   static_cast<double>(data.cuts.count()),
-                                  made,
+                                  seconds,
                                   worked,
                                   1e-6 * static_cast<double>(s.count("shadow_rays") - rays),
                                   megabytes,
@@ -155,6 +146,24 @@ class LocalStudy {
 };
 
 }  // namespace
+
+std::optional<relight::VisibilityData> surfaceData(const std::string& name, const Tracer& tracer,
+                                                   const char* figure, const CutsStudy& study) {
+  const std::vector<Emitter>& emitters = tracer.scene().emitters;
+  if (std::none_of(emitters.begin(), emitters.end(),
+                   [](const Emitter& e) { return relight::isLocal(e.type); })) {
+    study.context.info(
+        fmt::format("{} has no local lights: it is left out of figure {}", name, figure));
+    return {};
+  }
+  study.progress(name, "data of surfaces");
+  relight::PrecomputeSettings settings;
+  settings.light = relight::LightSamples::Kind::surfaces;
+  settings.sigma = kLocalSigma;
+  settings.sampleCount = study.sampleCount();
+  study.context.seed = study.options.seed;
+  return relight::precomputeVisibility(tracer, settings, study.context);
+}
 
 void cutsLocalData(const std::string& name, const CutsStudy& study) {
   LocalStudy(name, study).run();
