@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "lobelia/app/bench_cuts_vertices.h"
 #include "lobelia/app/bench_studies.h"
@@ -55,6 +57,20 @@ Film emptyFrame(const Camera& camera) {
   film.layers.erase("direct");
   film.layers.erase("indirect");
   return film;
+}
+
+Camera timedCamera(const Scene& scene, const BenchOptions& options) {
+  RenderOptions render;
+  render.size = options.size.empty() ? "640x480" : options.size;
+  render.camera = options.camera;
+  return chooseCamera(scene, render);
+}
+
+void changeRoughness(std::vector<Material>& materials, int i) {
+  const float rougher = 1 + 0.2f * static_cast<float>(std::sin(i));
+  for (Material& m : materials)
+    for (FloatParam* alpha : {&m.alphaU, &m.alphaV, &m.roughness})
+      if (m.type != MaterialType::phong) alpha->value = std::min(alpha->value * rougher, 1.f);
 }
 
 const std::vector<std::string>& cutsFigures() {

@@ -36,6 +36,10 @@ inline constexpr float kLocalSigma = 0.85f;  // of surface data: RMS errors are 
 inline constexpr size_t kPaperLightCuts[] = {128, 256, 512};
 
 Film emptyFrame(const Camera& camera);
+// The camera of frames that are timed: 640x480 unless the options say more.
+Camera timedCamera(const Scene& scene, const BenchOptions& options);
+// Roughnesses of frame i of those, up to a fifth more or less than they were.
+void changeRoughness(std::vector<Material>& materials, int i);
 
 class StudyVertices;
 void cutsClusters(const std::string& scene, const Tracer& tracer, const StudyVertices& vertices,

@@ -26,7 +26,7 @@ class DataStudy {
         options_(study.optionsOf(name)),
         scene_(loadScene(options_.scene, study.context)),
         materials_(scene_.materials),
-        camera_(cameraOf(scene_, options_)),
+        camera_(timedCamera(scene_, options_)),
         tracer_(scene_, study.context),
         emitters_(scene_, tracer_.bounds()) {}
 
@@ -40,13 +40,6 @@ class DataStudy {
   }
 
  private:
-  static Camera cameraOf(const Scene& scene, const BenchOptions& options) {
-    RenderOptions render;
-    render.size = options.size.empty() ? "640x480" : options.size;
-    render.camera = options.camera;
-    return chooseCamera(scene, render);
-  }
-
   void add(float beta, double* geometric) {
     relight::PrecomputeSettings settings;
     settings.beta = beta, settings.sigma = kSigma;
@@ -96,10 +89,7 @@ class DataStudy {
       camera.toWorld = Transform(translation(centre) * rotation({0, 1, 0}, 2.0 * i) *
                                  translation(-centre) * camera_.toWorld.to);
       scene_.materials = materials_;
-      const float rougher = 1 + 0.2f * static_cast<float>(std::sin(i));
-      for (Material& m : scene_.materials)
-        for (FloatParam* alpha : {&m.alphaU, &m.alphaV, &m.roughness})
-          if (m.type != MaterialType::phong) alpha->value = std::min(alpha->value * rougher, 1.f);
+      changeRoughness(scene_.materials, i);
       Film film = emptyFrame(camera);
       const relight::FrameLight light =
           renderer.light(5.0 * i, {.nodeCount = nodes}, study_.context);

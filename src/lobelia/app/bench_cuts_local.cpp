@@ -39,7 +39,7 @@ class LocalStudy {
         scene_(loadScene(options_.scene, study.context)),
         emitters_(scene_.emitters),
         materials_(scene_.materials),
-        camera_(cameraOf(scene_, options_)),
+        camera_(timedCamera(scene_, options_)),
         tracer_(scene_, study.context) {}
 
   void run() {
@@ -69,22 +69,12 @@ class LocalStudy {
   }
 
  private:
-  static Camera cameraOf(const Scene& scene, const BenchOptions& options) {
-    RenderOptions render;
-    render.size = options.size.empty() ? "640x480" : options.size;
-    render.camera = options.camera;
-    return chooseCamera(scene, render);
-  }
-
   // What a person may change at once: the view, where lights are, how rough things are.
   void frame(relight::LocalRenderer& renderer, size_t nodes, int i) {
     Camera camera = camera_;
     camera.toWorld = Transform(camera_.toWorld.to * rotation({0, 1, 0}, 0.5 * i));
     scene_.materials = materials_;
-    const float rougher = 1 + 0.2f * static_cast<float>(std::sin(i));
-    for (Material& m : scene_.materials)
-      for (FloatParam* alpha : {&m.alphaU, &m.alphaV, &m.roughness})
-        if (m.type != MaterialType::phong) alpha->value = std::min(alpha->value * rougher, 1.f);
+    changeRoughness(scene_.materials, i);
     scene_.emitters = emitters_;
     const double away =
         static_cast<double>(kMoved * length(tracer_.bounds().extent())) * std::sin(2.0 * i);

@@ -1,10 +1,8 @@
 #include "lobelia/relight/frame.h"
 
-#include <mutex>
-
-#include "lobelia/base/parallel.h"
 #include "lobelia/path/receivers.h"
 #include "lobelia/relight/frame_tile.h"
+#include "lobelia/relight/tile_pool.h"
 
 namespace lobelia::relight {
 namespace {
@@ -55,26 +53,12 @@ struct FrameRenderer::Impl {
         lookup(data.samples.p),
         light(distantLight(t.scene())) {}
 
-  // A tile's memory, of whoever needs one next.
-  std::unique_ptr<FrameTile> take() {
-    const std::lock_guard lock(mutex);
-    if (free.empty()) return std::make_unique<FrameTile>();
-    std::unique_ptr<FrameTile> tile = std::move(free.back());
-    free.pop_back();
-    return tile;
-  }
-  void giveBack(std::unique_ptr<FrameTile> tile) {
-    const std::lock_guard lock(mutex);
-    free.push_back(std::move(tile));
-  }
-
   const Tracer& tracer;
   const EmitterSampler* emitters;
   const VisibilityData& data;
   DirectionLookup lookup;
   DistantLight light;
-  std::mutex mutex;
-  std::vector<std::unique_ptr<FrameTile>> free;
+  TilePool<FrameTile> tiles;
 };
 
 Mat4 turnOfLight(const Scene& scene, double degrees) {
@@ -104,18 +88,9 @@ void FrameRenderer::render(const FrameLight& light, const Camera& camera,
   const int64_t start = nanosecondsNow();
   const FrameInput input{impl_->tracer, *impl_->emitters, impl_->data, impl_->lookup,
                          light,         camera,           settings,    context.seed};
-  const std::vector<TileArea> areas = tileAreas(film);
-  TileCounts counts;
-  std::mutex mutex;
-  parallelFor(areas.size(), 1, [&](size_t i) {
-    if (context.cancelled()) return;
-    std::unique_ptr<FrameTile> tile = impl_->take();
-    const TileCounts own = tile->render(input, areas[i], film);
-    impl_->giveBack(std::move(tile));
-    const std::lock_guard lock(mutex);
-    counts.add(own);
-  });
-  if (context.cancelled()) throw Cancelled{};
+  const TileCounts counts = impl_->tiles.renderAll(
+      tileAreas(film), context,
+      [&](FrameTile& tile, const TileArea& area) { return tile.render(input, area, film); });
   addCounts(counts, film.pixelCount(), static_cast<double>(nanosecondsNow() - start) * 1e-9,
             context);
 }

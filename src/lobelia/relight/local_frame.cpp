@@ -1,10 +1,8 @@
 #include "lobelia/relight/local_frame.h"
 
-#include <mutex>
-
-#include "lobelia/base/parallel.h"
 #include "lobelia/path/receivers.h"
 #include "lobelia/relight/local_tile.h"
+#include "lobelia/relight/tile_pool.h"
 
 namespace lobelia::relight {
 namespace {
@@ -53,26 +51,12 @@ struct LocalRenderer::Impl {
         surfaces(t, d.samples),
         sources(std::make_unique<LocalSources>(t.scene())) {}
 
-  // A tile's memory, of whoever needs one next.
-  std::unique_ptr<LocalTile> take() {
-    const std::lock_guard lock(mutex);
-    if (free.empty()) return std::make_unique<LocalTile>();
-    std::unique_ptr<LocalTile> tile = std::move(free.back());
-    free.pop_back();
-    return tile;
-  }
-  void giveBack(std::unique_ptr<LocalTile> tile) {
-    const std::lock_guard lock(mutex);
-    free.push_back(std::move(tile));
-  }
-
   const Tracer& tracer;
   const EmitterSampler* emitters;
   const VisibilityData& data;
   const SampleSurfaces surfaces;
   std::unique_ptr<LocalSources> sources;
-  std::mutex mutex;
-  std::vector<std::unique_ptr<LocalTile>> free;
+  TilePool<LocalTile> tiles;
 };
 
 LocalRenderer::LocalRenderer(const Tracer& tracer, const EmitterSampler& emitters,
@@ -99,18 +83,9 @@ void LocalRenderer::render(const SurfaceLight& light, const Camera& camera,
   const int64_t start = nanosecondsNow();
   const LocalInput input{impl_->tracer, *impl_->emitters, *impl_->sources, impl_->data,
                          light,         camera,           settings,        context.seed};
-  const std::vector<TileArea> areas = tileAreas(film, LocalTile::kSize);
-  LocalCounts counts;
-  std::mutex mutex;
-  parallelFor(areas.size(), 1, [&](size_t i) {
-    if (context.cancelled()) return;
-    std::unique_ptr<LocalTile> tile = impl_->take();
-    const LocalCounts own = tile->render(input, areas[i], film);
-    impl_->giveBack(std::move(tile));
-    const std::lock_guard lock(mutex);
-    counts.add(own);
-  });
-  if (context.cancelled()) throw Cancelled{};
+  const LocalCounts counts = impl_->tiles.renderAll(
+      tileAreas(film, LocalTile::kSize), context,
+      [&](LocalTile& tile, const TileArea& area) { return tile.render(input, area, film); });
   addCounts(counts, settings.add, film.pixelCount(),
             static_cast<double>(nanosecondsNow() - start) * 1e-9, context);
 }
