@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lobelia/scene/material_parameters.h"
 #include "lobelia/scene/scene.h"
 
 namespace lobelia::test {
@@ -63,34 +64,14 @@ class SceneText {
     if (!h.valid()) return "none";
     const Material& m = s_[h];
     std::string out = fmt::format("material {} (", int(m.type));
-    for (const ColorParam* c :
-         {&m.diffuse, &m.specular, &m.transmittance, &m.eta, &m.k, &m.sheenColor})
-      out += color(*c) + " ";
+    eachColorParam(m, [&](const ColorParam& p) { out += color(p) + " "; });
     out += fmt::format("{} {} {} {} {} {} ", m.isSpecularGlossiness, texture(m.clearcoatNormal),
                        texture(m.anisotropicDirection), m.thin, m.coatIor, rgb(m.absorption));
     out += fmt::format("{} {} {} {} {} {} ", m.ior, int(m.distribution), m.wardVariant, m.nonlinear,
                        texture(m.map), m.scale);
-    for (const FloatParam* f : {&m.alphaU,
-                                &m.alphaV,
-                                &m.roughness,
-                                &m.anisotropic,
-                                &m.metallic,
-                                &m.specTrans,
-                                &m.specTint,
-                                &m.sheen,
-                                &m.sheenTint,
-                                &m.flatness,
-                                &m.clearcoat,
-                                &m.clearcoatGloss,
-                                &m.opacity,
-                                &m.weight,
-                                &m.specularStrength,
-                                &m.sheenRoughness,
-                                &m.clearcoatRoughness,
-                                &m.anisotropicRotation,
-                                &m.coatAlphaU,
-                                &m.coatAlphaV})
-      out += (f->texture.valid() ? texture(f->texture) : fmt::format("{}", f->value)) + " ";
+    eachFloatParam(m, [&](const FloatParam& p) {
+      out += (p.texture.valid() ? texture(p.texture) : fmt::format("{}", p.value)) + " ";
+    });
     for (const CapturedLobe& lobe : m.capturedLobes) {
       const FloatParam& s = lobe.sharpness;
       out += color(lobe.amplitude) + " " +

@@ -7,6 +7,7 @@
 
 #include "lobelia/base/random.h"
 #include "lobelia/scene/light_groups.h"
+#include "lobelia/scene/material_parameters.h"
 #include "lobelia/scene/scene.h"
 
 namespace lobelia {
@@ -73,34 +74,11 @@ class StreamHash {
   }
   void add(const Material& m) {
     add(m.type), add(m.a), add(m.b);
-    for (const ColorParam* c :
-         {&m.diffuse, &m.specular, &m.transmittance, &m.eta, &m.k, &m.sheenColor})
-      add(*c);
+    eachColorParam(m, [&](const ColorParam& p) { add(p); });
     add(m.isSpecularGlossiness), add(m.clearcoatNormal), add(m.anisotropicDirection), add(m.thin);
     add(m.coatIor), add(m.absorption);
     add(m.ior), add(m.distribution), add(m.wardVariant), add(m.nonlinear), add(m.map), add(m.scale);
-    for (const FloatParam* f : {&m.alphaU,
-                                &m.alphaV,
-                                &m.roughness,
-                                &m.anisotropic,
-                                &m.metallic,
-                                &m.specTrans,
-                                &m.specTint,
-                                &m.sheen,
-                                &m.sheenTint,
-                                &m.flatness,
-                                &m.clearcoat,
-                                &m.clearcoatGloss,
-                                &m.opacity,
-                                &m.weight,
-                                &m.specularStrength,
-                                &m.sheenRoughness,
-                                &m.clearcoatRoughness,
-                                &m.anisotropicRotation,
-                                &m.coatAlphaU,
-                                &m.coatAlphaV}) {
-      add(*f);
-    }
+    eachFloatParam(m, [&](const FloatParam& p) { add(p); });
     word(m.capturedLobes.size());
     for (const CapturedLobe& lobe : m.capturedLobes) add(lobe.amplitude), add(lobe.sharpness);
   }

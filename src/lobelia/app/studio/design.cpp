@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lobelia/scene/material_parameters.h"
+
 namespace lobelia::app {
 namespace {
 
@@ -32,29 +34,8 @@ class Kept {
 
 template <class F>
 void eachTexture(Material& m, const F& f) {
-  for (ColorParam* p : {&m.diffuse, &m.specular, &m.transmittance, &m.eta, &m.k, &m.sheenColor})
-    f(p->texture);
-  for (FloatParam* p : {&m.alphaU,
-                        &m.alphaV,
-                        &m.roughness,
-                        &m.anisotropic,
-                        &m.metallic,
-                        &m.specTrans,
-                        &m.specTint,
-                        &m.sheen,
-                        &m.sheenTint,
-                        &m.flatness,
-                        &m.clearcoat,
-                        &m.clearcoatGloss,
-                        &m.specularStrength,
-                        &m.sheenRoughness,
-                        &m.clearcoatRoughness,
-                        &m.anisotropicRotation,
-                        &m.coatAlphaU,
-                        &m.coatAlphaV,
-                        &m.opacity,
-                        &m.weight})
-    f(p->texture);
+  eachColorParam(m, [&](ColorParam& p) { f(p.texture); });
+  eachFloatParam(m, [&](FloatParam& p) { f(p.texture); });
   for (CapturedLobe& lobe : m.capturedLobes) f(lobe.amplitude.texture), f(lobe.sharpness.texture);
   f(m.clearcoatNormal), f(m.anisotropicDirection), f(m.map);
 }
