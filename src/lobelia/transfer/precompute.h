@@ -1,0 +1,34 @@
+// Precomputation of transfer, from the adaptive mesh to all passes [P002 sections 5, 6].
+#pragma once
+
+#include <string>
+
+#include "lobelia/base/context.h"
+#include "lobelia/trace/tracer.h"
+#include "lobelia/transfer/transfer_data.h"
+
+namespace lobelia::transfer {
+
+struct TransferSettings {
+  int directionLevel = 3;  // 642 directions to the eye
+  int rayLevel = 0;        // grid of rays from each vertex; 0: as fine as the sharpest lobe needs
+  int maskLevel = 7;       // grid of visibility masks for subdivision: 163,842
+  float maskTolerance = 0.005f;  // share of a mask by which the ends of an edge may differ
+  int subdivision = 3;           // how often an edge may be halved; 0: the mesh stays as it is
+  int bounces = 2;               // reflections at other surfaces: passes - 1
+  int classCount = 1;            // TransferData::classCount
+  uint64_t memoryBytes = 0;      // budget; 0: three quarters of the machine's
+  // Folder for what is done so far, from which a run that was stopped goes on; made if it is not
+  // there, emptied and removed at the end. "": none.
+  std::string workFolder;
+};
+
+// No randomness. Throws Cancelled when the context is (what is done stays in the work folder),
+// RuntimeError where the budget is too small, with what would fit. Seconds by stage: "masks"
+// (masks and subdivision), "trace", "direct", "bounce". Counts: "vertices", "vertices_added",
+// "mask_rays", "transfer_rays", "hits", "slices", "slices_unoccluded", "records",
+// "blocks_resumed", "nonfinite".
+TransferData precomputeTransfer(const Tracer& tracer, const TransferSettings& settings,
+                                Context& context);
+
+}  // namespace lobelia::transfer

@@ -1,0 +1,61 @@
+// What surfaces reflect where nothing is in the way: the BRDF's slices as vMF lobes
+// [P002 section 4; methods.md 0.5], from tables by elevation for each material, or from a Bsdf.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "lobelia/bsdf/bsdf.h"
+#include "lobelia/scene/shading.h"
+
+namespace lobelia::transfer {
+
+// alpha: hemispherical integral of f cos over the lobe's directions.
+struct ReflectedLobe {
+  Vec3f axis{0, 0, 1};  // unit, world
+  float kappa = 1;
+  Rgb alpha{};
+};
+
+struct Reflection {
+  static constexpr int kMostLobes = 4;
+  Rgb diffuse{};     // albedo of the diffuse lobes towards wo
+  Rgb glossy{};      // of all glossy ones: the sum of the lobes' alpha
+  Vec3f n{0, 0, 1};  // unit, on wo's side
+  Vec3f mirror{};    // unit: wo reflected about n
+  Vec3f r{};         // mean of the glossy lobes' directions, by luminance; world, length < 1
+  int count = 0;
+  std::array<ReflectedLobe, kMostLobes> lobes;  // wide ones last
+};
+
+// The parts of a Bsdf that transfer knows: lobes that reflect. Delta lobes, and such as are sharper
+// than kMostKappa (slice_record.h), become microfacets of about that; transmission is left out.
+Bsdf diffusePart(const Bsdf& bsdf);
+Bsdf glossyPart(const Bsdf& bsdf);
+Reflection reflectionOf(const Bsdf& bsdf, Vec3f wo);
+
+// Tables of a scene's materials.
+class ReflectionTables {
+ public:
+  // Keeps a reference. Tables of all isotropic materials without textures; others have none.
+  explicit ReflectionTables(const Scene& scene);
+  ~ReflectionTables();
+  bool has(MaterialHandle material) const;
+  // n: unit, outside; wo: unit. False where wo is behind a surface that reflects in front alone.
+  bool at(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const;
+  // The same without lobes, for sums of many: albedos, mirror and r.
+  bool summary(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const;
+  // kappa of the sharpest glossy lobe of any material that is used; 0: there is none.
+  float sharpest() const;
+  bool anyDiffuse() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Turns v by the smallest rotation that takes `from` to `to`; both unit.
+Vec3f turned(Vec3f v, Vec3f from, Vec3f to);
+
+}  // namespace lobelia::transfer
