@@ -1,10 +1,9 @@
 #include "lobelia/transfer/visible_part.h"
 
 #include "lobelia/lobes/spherical_gaussian.h"
+#include "lobelia/transfer/resultant.h"
 
 namespace lobelia::transfer {
-
-float kappaOfResultant(float r) { return r * (3 - r * r) / std::max(1 - r * r, 1e-7f); }
 
 VisiblePart visiblePart(const TransferLobe& lobe, Vec3f own) {
   VisiblePart part{false, lobe.share, own, own, 1};
@@ -52,7 +51,7 @@ ReflectedLobe visibleOf(const ReflectedLobe& lobe, const VisiblePart& part) {
 LobeMoment visibleOf(const Reflection& own, const VisiblePart& part) {
   if (part.whole) return {own.glossy, own.r * luminance(own.glossy)};
   const Rgb alpha = own.glossy * part.share;
-  const float kappa = lobes::inverseMeanResultant(length(own.r)) / part.width;
+  const float kappa = kappaOfResultant(length(own.r)) / part.width;
   return {alpha, part.axis * (luminance(alpha) * lobes::meanResultant(kappa))};
 }
 

@@ -9,10 +9,6 @@
 
 namespace lobelia::transfer {
 
-// kappa of a mean resultant by Banerjee's formula [P002 eq. 3], for ratios, in which its error of a
-// few per cent cancels.
-float kappaOfResultant(float r);
-
 struct VisiblePart {
   bool whole = true;  // nothing is in the way: the rest is not looked at
   Rgb share{1, 1, 1};

@@ -1,0 +1,81 @@
+#include "lobelia/transfer/frame.h"
+
+#include <optional>
+#include <stdexcept>
+
+#include "lobelia/path/receivers.h"
+#include "lobelia/relight/frame.h"
+#include "lobelia/relight/tile_pool.h"
+#include "lobelia/transfer/frame_tile.h"
+
+namespace lobelia::transfer {
+namespace {
+
+void addCounts(const TileCounts& counts, uint64_t pixels, double seconds, Context& context) {
+  Statistics& s = context.statistics;
+  const auto spent = static_cast<double>(counts.bufferNs + counts.mergeNs + counts.shadeNs);
+  const auto share = [&](int64_t ns) {
+    return spent > 0 ? seconds * static_cast<double>(ns) / spent : 0;
+  };
+  s.addSeconds("buffer", share(counts.bufferNs));
+  s.addSeconds("merge", share(counts.mergeNs));
+  s.addSeconds("shade", share(counts.shadeNs));
+  s.addCount("frames", 1);
+  s.addCount("pixels", pixels);
+  s.addCount("object_pixels", counts.objectPixels);
+  s.addCount("vertices_merged", counts.vertices);
+  s.addCount("light_lookups", counts.lightLookups);
+  s.addCount("nonfinite", counts.nonFinite);
+  if (counts.firstBad) noteNonFinitePixel(*counts.firstBad, context);
+}
+
+size_t passNumber(int pass, const TransferData& data) {
+  return std::min(static_cast<size_t>(std::max(pass, 0)), data.passes.size());
+}
+
+}  // namespace
+
+struct TransferRenderer::Impl {
+  Impl(const Tracer& t, const TransferData& d)
+      : tracer(t), data(d), tables(t.scene()), lookup(t.scene(), d, tables) {}
+
+  const Tracer& tracer;
+  const TransferData& data;
+  ReflectionTables tables;
+  SliceLookup lookup;
+  const EmitterSampler* emitters = nullptr;
+  std::optional<PrefilteredLight> light;
+  relight::TilePool<FrameTile> tiles;
+};
+
+TransferRenderer::TransferRenderer(const Tracer& tracer, const TransferData& data)
+    : impl_(std::make_unique<Impl>(tracer, data)) {}
+TransferRenderer::~TransferRenderer() = default;
+
+void TransferRenderer::relight(const EmitterSampler& emitters, Context& context) {
+  const StageTimer timer(context, "light");
+  impl_->emitters = &emitters;
+  impl_->light.emplace(relight::distantLight(impl_->tracer.scene()));
+}
+
+void TransferRenderer::render(const TransferFrameSettings& settings, const Camera& camera,
+                              Film& film, Context& context) {
+  if (!impl_->light) throw std::logic_error("TransferRenderer::relight() comes before frames");
+  const int64_t start = nanosecondsNow();
+  const Mat4 turned = relight::turnOfLight(impl_->tracer.scene(), settings.rotation);
+  const FrameLight light{*impl_->light, DirectionRows(transpose(turned)),
+                         passNumber(settings.firstPass, impl_->data),
+                         passNumber(settings.endPass, impl_->data)};
+  const EyeDirection eye(camera);
+  const FrameInput input{
+      impl_->tracer, *impl_->emitters, impl_->data, impl_->tables, impl_->lookup, light,
+      eye,           camera,           settings,    context.seed};
+  const TileCounts counts = impl_->tiles.renderAll(
+      relight::tileAreas(film), context, [&](FrameTile& tile, const relight::TileArea& area) {
+        return tile.render(input, area, film);
+      });
+  addCounts(counts, film.pixelCount(), static_cast<double>(nanosecondsNow() - start) * 1e-9,
+            context);
+}
+
+}  // namespace lobelia::transfer

@@ -1,0 +1,79 @@
+#include "lobelia/transfer/frame_vertices.h"
+
+#include "lobelia/transfer/resultant.h"
+
+namespace lobelia::transfer {
+
+EyeDirection::EyeDirection(const Camera& camera)
+    : parallel_(camera.type == CameraType::orthographic),
+      eye_(parallel_ ? -normalize(camera.toWorld.to.vector({0, 0, 1}))
+                     : camera.toWorld.to.point({0, 0, 0})) {}
+
+Vec3f EyeDirection::from(Vec3f p, Vec3f n) const {
+  if (parallel_) return eye_;
+  const Vec3f d = eye_ - p;
+  const float size = length(d);
+  return size > 0 ? d / size : n;
+}
+
+void FrameVertices::begin(const SliceLookup& lookup, const TransferData& data,
+                          const FrameLight& light, const EyeDirection& eye) {
+  lookup_ = &lookup, data_ = &data, light_ = &light, eye_ = &eye;
+  lobeCount_ = 0;
+  for (size_t pass = std::max<size_t>(light.firstPass, 1); pass < light.endPass; ++pass)
+    lobeCount_ += data.passes[pass].glossy.size();
+  forget();
+  merged = 0, lightLookups = 0;
+}
+
+void FrameVertices::forget() {
+  slots_.clear();
+  vertices_.clear(), mirrors_.clear(), visible_.clear(), diffuse_.clear(), hasLobes_.clear();
+  lobes_.clear();
+}
+
+uint32_t FrameVertices::slotOf(uint32_t vertex) {
+  uint32_t& slot = slots_[vertex];
+  if (slot == relight::NumberTable::kNone) {
+    slot = static_cast<uint32_t>(vertices_.size());
+    vertices_.push_back(vertex);
+  }
+  return slot;
+}
+
+void FrameVertices::mergeNew() {
+  for (size_t slot = mirrors_.size(); slot < vertices_.size(); ++slot) {
+    const uint32_t vertex = vertices_[slot];
+    const TransferVertex& at = data_->mesh.vertices[vertex];
+    const VertexView view = lookup_->view(vertex, eye_->from(at.p, at.n));
+    mirrors_.push_back(view.mirror);
+    visible_.push_back(light_->firstPass == 0 ? lookup_->visible(view) : VisiblePart{});
+    diffuse_.push_back(diffuseLight(vertex));
+    bool any = false;
+    for (size_t pass = std::max<size_t>(light_->firstPass, 1); pass < light_->endPass; ++pass)
+      for (size_t c = 0; c < data_->passes[pass].glossy.size(); ++c) {
+        lobes_.push_back(lookup_->glossy(view, pass, c));
+        any = any || luminance(lobes_.back().share) > 0;
+      }
+    hasLobes_.push_back(any ? 1 : 0);
+    ++merged;
+  }
+}
+
+Rgb FrameVertices::diffuseLight(uint32_t vertex) {
+  Rgb sum{};
+  for (size_t pass = light_->firstPass; pass < light_->endPass; ++pass) {
+    const std::vector<DiffuseLobes>& lobes = data_->passes[pass].diffuse;
+    if (lobes.empty()) continue;
+    for (const SliceRecord record : lobes[vertex]) {
+      const TransferLobe lobe = unpack(record);
+      const float size = length(lobe.r);
+      if (lobe.share == Rgb{} || size <= 0) continue;
+      sum += lobe.share * light_->lookUp(lobe.r / size, kappaOfResultant(size));
+      ++lightLookups;
+    }
+  }
+  return sum;
+}
+
+}  // namespace lobelia::transfer

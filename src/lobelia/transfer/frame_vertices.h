@@ -1,0 +1,73 @@
+// The vertices around the pixels of a tile with their slices towards the eye and their diffuse
+// light. For one thread.
+#pragma once
+
+#include "lobelia/path/direction_rows.h"
+#include "lobelia/relight/number_table.h"
+#include "lobelia/scene/camera.h"
+#include "lobelia/transfer/prefiltered_light.h"
+#include "lobelia/transfer/slice_lookup.h"
+
+namespace lobelia::transfer {
+
+// The light of a frame and what is shown of it.
+struct FrameLight {
+  const PrefilteredLight& prefiltered;
+  DirectionRows toLight;              // from the world to the light as the scene has it
+  size_t firstPass = 0, endPass = 0;  // passes shown, of those there are
+  Rgb lookUp(Vec3f axis, float kappa) const { return prefiltered.lookUp(toLight * axis, kappa); }
+};
+
+// Where a camera's rays come from, seen from p: unit. Lenses are taken to be their middles, because
+// slices vary slowly.
+class EyeDirection {
+ public:
+  explicit EyeDirection(const Camera& camera);
+  Vec3f from(Vec3f p, Vec3f n) const;
+
+ private:
+  bool parallel_;
+  Vec3f eye_;  // place, or direction where rays are parallel
+};
+
+class FrameVertices {
+ public:
+  // Forgets all vertices. Keeps references.
+  void begin(const SliceLookup& lookup, const TransferData& data, const FrameLight& light,
+             const EyeDirection& eye);
+  void forget();
+  size_t count() const { return vertices_.size(); }
+  // Number of a vertex; what it has is there after mergeNew().
+  uint32_t slotOf(uint32_t vertex);
+  void mergeNew();
+
+  const VisiblePart& visible(uint32_t slot) const { return visible_[slot]; }
+  Vec3f mirror(uint32_t slot) const { return mirrors_[slot]; }
+  // Radiance over albedo.
+  Rgb diffuse(uint32_t slot) const { return diffuse_[slot]; }
+  // Of passes after the first, class after class; lobeCount() of them. Empty: all are nothing.
+  std::span<const TransferLobe> lobes(uint32_t slot) const {
+    return {lobes_.data() + slot * lobeCount_, hasLobes_[slot] != 0 ? lobeCount_ : 0};
+  }
+  size_t lobeCount() const { return lobeCount_; }
+
+  uint64_t merged = 0, lightLookups = 0;  // since begin()
+
+ private:
+  Rgb diffuseLight(uint32_t vertex);
+
+  const SliceLookup* lookup_ = nullptr;
+  const TransferData* data_ = nullptr;
+  const FrameLight* light_ = nullptr;
+  const EyeDirection* eye_ = nullptr;
+  size_t lobeCount_ = 0;
+  relight::NumberTable slots_;
+  std::vector<uint32_t> vertices_;  // by slot, as all that follow
+  std::vector<Vec3f> mirrors_;
+  std::vector<VisiblePart> visible_;
+  std::vector<Rgb> diffuse_;
+  std::vector<uint8_t> hasLobes_;
+  std::vector<TransferLobe> lobes_;
+};
+
+}  // namespace lobelia::transfer
