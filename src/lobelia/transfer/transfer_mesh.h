@@ -27,9 +27,11 @@ struct TransferMesh {
 
 // Of the scene as it is, nothing split. Corners of one place are one vertex where their materials
 // are the same, their shading normals differ by less than a thousandth and, if the material has
-// textures, their texture coordinates do, too.
+// textures, their texture coordinates do, too, and attributes not at all; where it depends on
+// tangents (anisotropic ones, normal maps), if these are less than about 11 degrees apart.
 relight::SampleMesh splitMesh(const Scene& scene);
-// The vertices of a mesh made from the scene by splitMesh() and subdivision.
+// The vertices of a mesh made from the scene by splitMesh() and subdivision; each a corner of its
+// largest triangle.
 std::vector<TransferVertex> transferVertices(const Scene& scene, const relight::SampleMesh& mesh);
 // Is anything of the material, or of what it wraps, driven by a texture (bump and normal maps
 // included)?
