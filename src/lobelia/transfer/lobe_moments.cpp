@@ -1,0 +1,110 @@
+#include "lobelia/transfer/lobe_moments.h"
+
+#include <cmath>
+
+#include "lobelia/bsdf/albedo.h"
+#include "lobelia/bsdf/bsdf.h"
+#include "lobelia/bsdf/lobe_kind.h"
+#include "lobelia/bsdf/lobe_sampling.h"
+#include "lobelia/bsdf/quadrature.h"
+#include "lobelia/bsdf/scalar_lobe.h"
+
+namespace lobelia::transfer {
+namespace {
+
+// Hammersley's points: i / n and the bit-reversed i, both at the centres of their strata.
+Vec2f latticePoint(uint32_t i, uint32_t count) {
+  uint32_t reversed = 0;
+  for (uint32_t bit = 1, to = count >> 1; to > 0; bit <<= 1, to >>= 1)
+    if (i & bit) reversed |= to;
+  const float n = static_cast<float>(count);
+  return {(static_cast<float>(i) + 0.5f) / n, (static_cast<float>(reversed) + 0.5f) / n};
+}
+
+// What a bump or normal map leaves of light from w, local.z being its cosine in the frame
+// (bsdf/bsdf.cpp has the same).
+float throughBumps(const Bsdf& bsdf, const ShadingFrame& frame, Vec3f w, float cosine) {
+  if (!frame.perturbed) return 1;
+  if (!(dot(w, bsdf.baseNormal) * cosine > 0)) return 0;
+  return bumpShadow(bsdf.baseNormal, frame.bumpAlpha2, w);
+}
+
+// Calls add(w, weight, solidAngle) for the points of a glossy lobe.
+template <class Add>
+void forEachPoint(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t count, const Add& add) {
+  const ShadingFrame& frame = bsdf.frameOf(lobe);
+  const Vec3f o = frame.toLocal(wo);
+  if (!isActive(lobe, o.z)) return;
+  for (uint32_t i = 0; i < count; ++i) {
+    const auto local = sampleLobe(lobe, o, latticePoint(i, count));
+    if (!local) continue;
+    const LobeValue value = evaluateWithPdf(lobe, o, *local);
+    if (!(value.pdf > 0) || !(maxComponent(value.value) > 0)) continue;
+    const Vec3f w = frame.toWorld(*local);
+    const float solidAngle = 1 / (static_cast<float>(count) * value.pdf);
+    const Rgb weight = value.value * (solidAngle * throughBumps(bsdf, frame, w, local->z));
+    if (isFinite(weight)) add(w, weight, solidAngle);
+  }
+}
+
+// By Gauss' rule in the squared cosine and evenly spaced azimuths.
+Rgb integratedAlbedo(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo) {
+  static const GaussRule rule = gaussLegendre(16);
+  constexpr int kAzimuths = 24;
+  const ShadingFrame& frame = bsdf.frameOf(lobe);
+  const Vec3f o = frame.toLocal(wo);
+  const float side = o.z < 0 ? -1.f : 1.f;
+  Rgb sum{};
+  for (size_t a = 0; a < rule.nodes.size(); ++a) {
+    const float c2 = static_cast<float>(rule.nodes[a]);
+    const float c = std::sqrt(c2), s = std::sqrt(1 - c2);
+    const float weight = kPi * static_cast<float>(rule.weights[a]) / (c * kAzimuths);
+    for (int b = 0; b < kAzimuths; ++b) {
+      const float phi = kTwoPi * (static_cast<float>(b) + 0.5f) / kAzimuths;
+      const Vec3f i(s * std::cos(phi), s * std::sin(phi), c * side);
+      const float through = throughBumps(bsdf, frame, frame.toWorld(i), i.z);
+      sum += evaluateLobe(lobe, o, i) * (weight * through);
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+void quadraturePoints(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t count,
+                      std::vector<LobePoint>* points) {
+  forEachPoint(bsdf, lobe, wo, count, [&](Vec3f w, Rgb weight, float solidAngle) {
+    points->push_back({w, weight, solidAngle});
+  });
+}
+
+LobeMoments glossyMoments(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t count) {
+  LobeMoments sum;
+  forEachPoint(bsdf, lobe, wo, count, [&](Vec3f w, Rgb weight, float) {
+    sum.albedo += weight;
+    sum.first += w * luminance(weight);
+  });
+  return sum;
+}
+
+std::optional<Rgb> closedAlbedo(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo) {
+  const ShadingFrame& frame = bsdf.frameOf(lobe);
+  const float cosine = dot(wo, frame.n);
+  const bool isotropic = lobe.type == LobeType::phong || lobe.alphaX == lobe.alphaY;
+  if (!isotropic || frame.perturbed || isCoated(lobe) || (lobe.interface && cosine < 0))
+    return std::nullopt;
+  return lobeAlbedo(lobe, cosine);
+}
+
+Rgb diffuseAlbedo(const Bsdf& bsdf, Vec3f wo) {
+  Rgb sum{};
+  for (int i = 0; i < bsdf.lobeCount; ++i) {
+    const Lobe& lobe = bsdf.lobes[i];
+    if (!isDiffuse(lobe.type) || !isActive(lobe, dot(wo, bsdf.frameOf(lobe).n))) continue;
+    const auto closed = closedAlbedo(bsdf, lobe, wo);
+    sum += closed ? *closed : integratedAlbedo(bsdf, lobe, wo);
+  }
+  return sum;
+}
+
+}  // namespace lobelia::transfer

@@ -1,0 +1,20 @@
+// A glossy lobe as a few vMF lobes, for looking up light from infinity.
+#pragma once
+
+#include <span>
+
+#include "lobelia/transfer/lobe_moments.h"
+#include "lobelia/transfer/reflection.h"
+
+namespace lobelia::transfer {
+
+// The one lobe of these moments, which reflect something.
+ReflectedLobe reflectedLobe(const LobeMoments& moments);
+
+// Writes at most lobes.size() (1 to Reflection::kMostLobes) lobes whose alphas add up to the
+// moments' albedo, and returns their number; 0: nothing is reflected. moments: glossyMoments() of
+// the lobe for this wo.
+int reflectedLobes(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, const LobeMoments& moments,
+                   std::span<ReflectedLobe> lobes);
+
+}  // namespace lobelia::transfer

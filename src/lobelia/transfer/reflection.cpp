@@ -1,0 +1,99 @@
+#include "lobelia/transfer/reflection.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "lobelia/base/frame.h"
+#include "lobelia/bsdf/scalar_lobe.h"
+#include "lobelia/transfer/lobe_moments.h"
+#include "lobelia/transfer/reflected_lobes.h"
+
+namespace lobelia::transfer {
+namespace {
+
+// Of a lobe's quadrature: for its mean direction alone, and where it has no closed albedo.
+constexpr uint32_t kDirectionPoints = 256, kPoints = 1024;
+
+// Few points do for the mean direction. The albedo then is that of tables.
+LobeMoments momentsOf(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo) {
+  const auto closed = closedAlbedo(bsdf, lobe, wo);
+  LobeMoments moments = glossyMoments(bsdf, lobe, wo, closed ? kDirectionPoints : kPoints);
+  const float energy = luminance(moments.albedo);
+  if (closed && energy > 0) {
+    moments.first *= luminance(*closed) / energy;
+    moments.albedo = *closed;
+  }
+  return moments;
+}
+
+// The active lobes of a Bsdf, in its order.
+struct ActiveLobes {
+  int count = 0;
+  std::array<const Lobe*, kMaxLobes> lobes{};
+};
+ActiveLobes activeLobes(const Bsdf& bsdf, Vec3f wo) {
+  ActiveLobes active;
+  for (int i = 0; i < bsdf.lobeCount; ++i) {
+    const Lobe& lobe = bsdf.lobes[i];
+    if (isActive(lobe, dot(wo, bsdf.frameOf(lobe).n)))
+      active.lobes[static_cast<size_t>(active.count++)] = &lobe;
+  }
+  return active;
+}
+
+// Wide ones last. By insertion: there are four at most.
+void sortByWidth(Reflection* out) {
+  for (size_t i = 1; i < static_cast<size_t>(out->count); ++i)
+    for (size_t j = i; j > 0 && out->lobes[j - 1].kappa < out->lobes[j].kappa; --j)
+      std::swap(out->lobes[j - 1], out->lobes[j]);
+}
+
+// Shares the places for lobes out among the Bsdf's; the last place is for all that are left.
+void addGlossy(const Bsdf& glossy, Vec3f wo, Reflection* out) {
+  const ActiveLobes active = activeLobes(glossy, wo);
+  LobeMoments all, rest;
+  for (int i = 0; i < active.count; ++i) {
+    const Lobe& lobe = *active.lobes[static_cast<size_t>(i)];
+    const LobeMoments moments = momentsOf(glossy, lobe, wo);
+    all.add(moments);
+    const int left = active.count - i, room = Reflection::kMostLobes - out->count;
+    if (room == 1 && left + i > Reflection::kMostLobes) {
+      rest.add(moments);
+    } else {
+      const auto places = std::span(out->lobes).subspan(static_cast<size_t>(out->count));
+      const int most = std::max(room / left, 1);
+      out->count +=
+          reflectedLobes(glossy, lobe, wo, moments, places.first(static_cast<size_t>(most)));
+    }
+  }
+  if (luminance(rest.albedo) > 0)
+    out->lobes[static_cast<size_t>(out->count++)] = reflectedLobe(rest);
+  sortByWidth(out);
+  out->glossy = all.albedo;
+  const float energy = luminance(all.albedo);
+  if (energy > 0) out->r = all.first / energy;
+}
+
+}  // namespace
+
+Reflection reflectionOf(const Bsdf& bsdf, Vec3f wo) {
+  Reflection out;
+  const Vec3f n = bsdf.frames[0].n;
+  out.n = dot(n, wo) < 0 ? -n : n;
+  out.mirror = normalize(out.n * (2 * dot(out.n, wo)) - wo);
+  out.diffuse = diffuseAlbedo(bsdf, wo);
+  addGlossy(glossyPart(bsdf), wo, &out);
+  return out;
+}
+
+// Half a turn about `from`, then one about the direction midway.
+Vec3f turned(Vec3f v, Vec3f from, Vec3f to) {
+  Vec3f midway = from + to;
+  float length2 = lengthSquared(midway);
+  if (length2 < 1e-8f) midway = frameFromNormal(from).s, length2 = 1;  // any axis across
+  const Vec3f once = from * (2 * dot(from, v)) - v;
+  return midway * (2 * dot(midway, once) / length2) - once;
+}
+
+}  // namespace lobelia::transfer
