@@ -171,4 +171,10 @@ void VertexTracer::traceAll(LeafBits* bits) {
   flush(bits);
 }
 
+void VertexTracer::trace(std::span<const uint32_t> leaves, LeafBits* bits) {
+  for (const uint32_t leaf : leaves)
+    if ((bits->matters[leaf / 64] & bit(leaf)) != 0) push(leaf, bits);
+  flush(bits);
+}
+
 }  // namespace lobelia::relight

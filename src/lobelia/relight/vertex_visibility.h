@@ -37,6 +37,8 @@ class VertexTracer {
   // Says which leaves matter and that none is visible yet; the other functions go on from there.
   void prepare(std::span<const FacePlace> faces, LeafBits* bits);
   void traceAll(LeafBits* bits);
+  // Those of some leaves that matter and were not traced since prepare().
+  void trace(std::span<const uint32_t> leaves, LeafBits* bits);
   // nearby: bits of vertices that are done; key: of the random choice of probes.
   void traceAdaptively(std::span<const LeafBits* const> nearby, uint64_t key, LeafBits* bits);
 

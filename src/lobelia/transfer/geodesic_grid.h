@@ -37,6 +37,12 @@ class GeodesicGrid {
   std::span<const float> solidAngles() const { return solidAngles_; }
   // d: not zero, of any length.
   GridPlace locate(Vec3f d) const;
+  // Of a level from 0 to level(): 20 * 4^level triangles, corners by number. The children of
+  // triangle t are 4 t to 4 t + 3 of the next; 4 t + 1 has the middles of its edges, from corner 0
+  // on.
+  std::span<const std::array<uint32_t, 3>> triangles(int level) const {
+    return triangles_[static_cast<size_t>(level)];
+  }
   // The grid's number of each direction of a coarser or equal grid.
   std::vector<uint32_t> indicesOf(const GeodesicGrid& coarser) const;
 
@@ -46,8 +52,6 @@ class GeodesicGrid {
   std::vector<float> solidAngles_;
   // By number in the order of subdivision, in which coarser grids come first: the number here.
   std::vector<uint32_t> ofSubdivision_;
-  // Of all levels, by level: 20 * 4^level triangles; the children of triangle t of a level are 4 t
-  // to 4 t + 3 of the next. Corners by number here.
   std::vector<std::vector<std::array<uint32_t, 3>>> triangles_;
 };
 
