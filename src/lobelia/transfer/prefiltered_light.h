@@ -11,24 +11,34 @@ namespace lobelia::transfer {
 
 class PrefilteredLight {
  public:
-  // Level l is the light convolved with a vMF lobe of kappa kappa0 / 4^l, exactly, at the texels of
-  // an octahedral map as fine as its lobe needs. O(levels * cells), in parallel.
+  // Level l is the light convolved with a vMF lobe of kappa kappa0 / 2^(l / 2) at the texels of a
+  // cube map as fine as its lobe needs. O(levels * texels), in parallel.
   explicit PrefilteredLight(const relight::DistantLight& light);
 
   // Integral of radiance times a vMF lobe (of integral 1); axis: unit, in the frame of the light.
   // Linear between texels and, in log kappa, between levels; kappa is taken to lie between those of
   // the last and the first level.
-  Rgb lookUp(Vec3f axis, float kappa) const;
-  float sharpest() const;  // kappa of level 0
+  Rgb lookUp(Vec3f axis, float kappa) const { return lookUpAt(axis, levelOf(kappa)); }
+  // In two steps, where many axes have one kappa.
+  float levelOf(float kappa) const;
+  Rgb lookUpAt(Vec3f axis, float level) const;
+
+  float sharpest() const { return levels_[0].kappa; }  // kappa of level 0
+  size_t levelCount() const { return levels_.size(); }
+  float kappaOf(size_t level) const { return levels_[level].kappa; }
   size_t byteCount() const;
 
  private:
-  struct Level {
-    int size = 0;  // texels along an edge, without the border of one
-    float kappa = 1;
-    std::vector<float> texels;  // (size + 2)^2 x 4
+  // Alpha is not used: registers of four.
+  struct alignas(16) Texel {
+    float value[4] = {};
   };
-  Rgb lookUpLevel(const Level& level, Vec3f axis) const;
+  struct Level {
+    int size = 0;  // texels along an edge of a face, with a border of one beyond each
+    float kappa = 1;
+    std::vector<Texel> texels;  // 6 size^2
+  };
+  void fill(const relight::DistantLight& light, Level* level) const;
   std::vector<Level> levels_;
 };
 

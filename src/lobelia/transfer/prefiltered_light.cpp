@@ -1,0 +1,140 @@
+#include "lobelia/transfer/prefiltered_light.h"
+
+#include <cmath>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/transfer/cube_map.h"
+#include "lobelia/transfer/lump_kernels.h"
+
+namespace lobelia::transfer {
+namespace {
+
+// A lobe whose deviation is the spacing of the powers that DistantLight makes of images, 2 pi /
+// 512: there their sum is smooth to within 1e-8.
+constexpr float kSharpest = 6640;
+constexpr float kWidest = 0.25f;
+// Between levels of factor 4 light from one direction would err by 25 % of its peak, of factor 2 by
+// 6 %, so by 1.5 %; light as wide as the lobe by 0.2 %.
+constexpr float kLevelsPerOctave = 2;
+
+// Of a face, with its border. Bilinear interpolation errs by kappa (h_x^2 + h_y^2) / 8 of the peak
+// at most, where texels are h apart: 2 / 1.2664 / n in the middle of a face, the worst place. Light
+// from one direction errs by kError there, a lobe three times as wide as the level's by a quarter
+// of it.
+int sizeOf(float kappa) {
+  constexpr float kError = 0.02f;
+  const int size = static_cast<int>(std::sqrt(kappa * sqr(1 / 1.2664f) / kError));
+  return (std::max(size, 24) + 2 + 3) / 4 * 4;
+}
+
+// Of lumps: half a lobe's deviation; of wide ones little enough for their shape to be none.
+float lumpWidth(float kappa) { return std::min(0.5f / std::sqrt(kappa), 0.1f); }
+
+// Beyond it a lobe has less than 1e-5 of its peak.
+float reachOf(float kappa) {
+  const float chord = std::sqrt(23 / kappa);
+  return chord >= 2 ? kPi : 2 * std::asin(chord / 2);
+}
+
+// Face coordinates of texels: those of the border lie beyond 1.
+std::vector<float> texelCoordinates(int size) {
+  std::vector<float> out(static_cast<size_t>(size));
+  for (int i = 0; i < size; ++i)
+    out[static_cast<size_t>(i)] =
+        unwarped((2 * static_cast<float>(i) - 1) / static_cast<float>(size - 2) - 1);
+  return out;
+}
+
+constexpr size_t kBlock = 4;  // texels along an edge, whose lumps are looked for together
+static_assert(kBlock * kBlock == kBlockTexels);
+
+// The block whose face coordinates begin at u and v, with all that reaches it.
+TexelBlock blockAt(size_t face, const float* u, const float* v, const LightLumps& lumps,
+                   float reach, Rgb everywhere,
+                   std::vector<std::pair<uint32_t, uint32_t>>* ranges) {
+  TexelBlock block;
+  Vec3f sum{};
+  for (size_t t = 0; t < kBlockTexels; ++t) {
+    const Vec3f d = cubeDirection(face, u[t % kBlock], v[t / kBlock]);
+    block.x[t] = d.x, block.y[t] = d.y, block.z[t] = d.z;
+    block.r[t] = everywhere.x, block.g[t] = everywhere.y, block.b[t] = everywhere.z;
+    sum += d;
+  }
+  const Vec3f middle = normalize(sum);
+  float most = 0;  // chord
+  for (size_t t = 0; t < kBlockTexels; ++t)
+    most = std::max(most, length(Vec3f(block.x[t], block.y[t], block.z[t]) - middle));
+  ranges->clear();
+  lumps.find(middle, std::min(reach + 2 * std::asin(most / 2), kPi), ranges);
+  for (const auto& [begin, end] : *ranges) addLumps(lumps.lobes(), begin, end, &block);
+  return block;
+}
+
+}  // namespace
+
+PrefilteredLight::PrefilteredLight(const relight::DistantLight& light) {
+  for (int i = 0;; ++i) {
+    const float kappa = kSharpest * std::exp2(-static_cast<float>(i) / kLevelsPerOctave);
+    Level& level = levels_.emplace_back();
+    level.kappa = kappa;
+    level.size = sizeOf(kappa);
+    fill(light, &level);
+    if (kappa <= kWidest) return;
+  }
+}
+
+void PrefilteredLight::fill(const relight::DistantLight& light, Level* level) const {
+  const auto size = static_cast<size_t>(level->size);
+  level->texels.resize(6 * size * size);
+  const std::vector<float> at = texelCoordinates(level->size);
+  const LightLumps lumps(light.powers, level->kappa, lumpWidth(level->kappa));
+  const float reach = reachOf(level->kappa);
+  const size_t rows = size / kBlock;  // of blocks
+  parallelFor(6 * rows, 1, [&](size_t row) {
+    std::vector<std::pair<uint32_t, uint32_t>> ranges;
+    const size_t face = row / rows, y = row % rows * kBlock;
+    for (size_t x = 0; x < size; x += kBlock) {
+      const TexelBlock block =
+          blockAt(face, at.data() + x, at.data() + y, lumps, reach, light.everywhere, &ranges);
+      Texel* const out = level->texels.data() + (face * size + y) * size + x;
+      for (size_t t = 0; t < kBlockTexels; ++t)
+        out[t / kBlock * size + t % kBlock] = {{block.r[t], block.g[t], block.b[t], 0}};
+    }
+  });
+}
+
+float PrefilteredLight::levelOf(float kappa) const {
+  const auto last = static_cast<float>(levels_.size() - 1);
+  return std::clamp(kLevelsPerOctave * std::log2(kSharpest / std::max(kappa, 1e-6f)), 0.f, last);
+}
+
+Rgb PrefilteredLight::lookUpAt(Vec3f axis, float level) const {
+  const auto sharper = static_cast<size_t>(level);
+  const float share = level - static_cast<float>(sharper);
+  const CubePlace place = cubePlace(axis);
+  float sum[4] = {};
+  const auto add = [&](const Level& from, float weight) {
+    const float half = 0.5f * static_cast<float>(from.size - 2);
+    const float x = (place.at.x + 1) * half + 0.5f, y = (place.at.y + 1) * half + 0.5f;
+    const auto column = static_cast<size_t>(x), row = static_cast<size_t>(y);
+    const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
+    const auto stride = static_cast<size_t>(from.size);
+    const Texel* const t = from.texels.data() + (place.face * stride + row) * stride + column;
+    const float w[4] = {weight * (1 - u) * (1 - v), weight * u * (1 - v), weight * (1 - u) * v,
+                        weight * u * v};
+    for (size_t c = 0; c < 4; ++c)
+      sum[c] += w[0] * t[0].value[c] + w[1] * t[1].value[c] + w[2] * t[stride].value[c] +
+                w[3] * t[stride + 1].value[c];
+  };
+  add(levels_[sharper], 1 - share);
+  if (share > 0) add(levels_[sharper + 1], share);
+  return {sum[0], sum[1], sum[2]};
+}
+
+size_t PrefilteredLight::byteCount() const {
+  size_t bytes = 0;
+  for (const Level& level : levels_) bytes += level.texels.size() * sizeof(Texel);
+  return bytes;
+}
+
+}  // namespace lobelia::transfer
