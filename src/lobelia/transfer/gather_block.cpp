@@ -19,16 +19,18 @@ constexpr uint32_t kAllLanes = (1u << kLanes) - 1;
 uint32_t lanesOf(std::span<const uint64_t> bits, size_t chunk) {
   constexpr size_t kPerWord = 64 / kLanes;
   const size_t word = chunk / kPerWord;
-  return word < bits.size() ? static_cast<uint32_t>(bits[word] >> (chunk % kPerWord * kLanes)) &
-                                  kAllLanes
-                            : 0;
+  return word < bits.size()
+             ? static_cast<uint32_t>(bits[word] >> (chunk % kPerWord * kLanes)) & kAllLanes
+             : 0;
 }
 
 // Sums of what arrives along rays, for the lobe that it becomes.
 struct LobeTotal {
   Rgb alpha{};
   Vec3f first{};
-  void add(float weight, const LobeMoment& m) { alpha += m.alpha * weight, first += m.first * weight; }
+  void add(float weight, const LobeMoment& m) {
+    alpha += m.alpha * weight, first += m.first * weight;
+  }
   // total: of the weights of all rays.
   TransferLobe lobe(float total) const {
     const float energy = luminance(alpha);
@@ -170,7 +172,8 @@ class DirectPass {
         const float weight = w[l] * input_.rays.solidAngle[i];
         const float visible = (free >> l & 1) != 0 ? weight : 0;
         all += weight, seen += visible;
-        sum += Vec3f(input_.rays.chunks.x[i], input_.rays.chunks.y[i], input_.rays.chunks.z[i]) * visible;
+        sum += Vec3f(input_.rays.chunks.x[i], input_.rays.chunks.y[i], input_.rays.chunks.z[i]) *
+               visible;
       }
     }
     if (!std::isfinite(all)) {
@@ -301,7 +304,9 @@ class BouncePass {
     return in;
   }
 
-  static void add(LobeMoment* to, const LobeMoment& m) { to->alpha += m.alpha, to->first += m.first; }
+  static void add(LobeMoment* to, const LobeMoment& m) {
+    to->alpha += m.alpha, to->first += m.first;
+  }
 
   LobeMoment diffuseOf(const relight::SurroundingVertices& around, Rgb albedo) const {
     LobeMoment all;
@@ -380,8 +385,10 @@ class BouncePass {
       }
       for (size_t o = 0; o < kOctants; ++o) {
         const TransferLobe lobe = octants[o].lobe(all);
-        if (isFinite(lobe.share) && isFinite(lobe.r)) lobes[o] = pack(lobe);
-        else ++counts_.nonFinite;
+        if (isFinite(lobe.share) && isFinite(lobe.r))
+          lobes[o] = pack(lobe);
+        else
+          ++counts_.nonFinite;
       }
     }
     out_.diffuse.push_back(lobes);
@@ -394,9 +401,9 @@ class BouncePass {
   BlockCounts& counts_;
   LobeWeights weights_;
   std::span<const uint64_t> blocked_;
-  std::vector<uint32_t> firstHit_;   // by chunk: its first among incoming_
-  std::vector<Incoming> incoming_;   // by hit
-  bool any_ = false;                 // does any light arrive?
+  std::vector<uint32_t> firstHit_;  // by chunk: its first among incoming_
+  std::vector<Incoming> incoming_;  // by hit
+  bool any_ = false;                // does any light arrive?
   std::vector<uint32_t> chunks_;
   std::vector<std::vector<uint32_t>> columns_;  // by class
   std::vector<std::vector<SliceRecord>> records_;

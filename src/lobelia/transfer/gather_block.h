@@ -43,12 +43,12 @@ struct SeeingSlice {
 // Vertices [first, first + count()) and what their rays met, for passes after the first.
 struct BlockRays {
   size_t first = 0;
-  std::vector<uint64_t> blocked;                 // by vertex: a bit for each ray
-  std::vector<uint32_t> hitStart{0};             // by vertex, and the end
+  std::vector<uint64_t> blocked;      // by vertex: a bit for each ray
+  std::vector<uint32_t> hitStart{0};  // by vertex, and the end
   std::vector<RayHit> hits;
-  std::vector<uint32_t> sliceStart{0};           // by vertex, and the end
+  std::vector<uint32_t> sliceStart{0};  // by vertex, and the end
   std::vector<SeeingSlice> slices;
-  std::vector<float> diffuseWeight;              // by vertex: of the diffuse lobes; 0: none
+  std::vector<float> diffuseWeight;  // by vertex: of the diffuse lobes; 0: none
   size_t count() const { return hitStart.size() - 1; }
 };
 

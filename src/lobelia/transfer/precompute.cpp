@@ -57,7 +57,8 @@ class Precomputation {
         tables_(tracer.scene()),
         directions_(settings.directionLevel),
         rays_(settings.rayLevel > 0 ? settings.rayLevel : rayLevelFor(tables_.sharpest()),
-              directions_) {}
+              directions_),
+        store_(settings, rays_.grid.level(), tracer.scene(), context) {}
 
   TransferData run() {
     makeMesh();
@@ -68,17 +69,17 @@ class Precomputation {
     data_.directionLevel = settings_.directionLevel;
     data_.classCount = settings_.classCount;
     const SliceLookup lookup(tracer_.scene(), data_, tables_);
-    GatherInput input{tracer_, rays_, directions_, tables_,  data_,
-                      lookup,  faces, instanceOf,  {}};
+    GatherInput input{tracer_, rays_, directions_, tables_, data_, lookup, faces, instanceOf, {}};
     blocks_ = (data_.mesh.vertices.size() + kBlock - 1) / kBlock;
-    store_.reserve(blocks_);
+    store_.setSize(blocks_, directions_.count());
     direct(input);
-    for (int j = 1; j <= settings_.bounces; ++j) {
+    for (size_t j = 1; j <= static_cast<size_t>(settings_.bounces); ++j) {
       const std::vector<LobeMoment> diffuse = diffuseTotals();
       input.diffuseBefore = diffuse;
       bounce(input, j);
     }
     report();
+    store_.finish();
     return std::move(data_);
   }
 
@@ -86,16 +87,18 @@ class Precomputation {
   void makeMesh() {
     const StageTimer timer(context_, "masks");
     context_.progress("masks", 0);
-    {
+    if (std::optional<relight::SampleMesh> known = store_.mesh(tracer_.scene())) {
+      data_.mesh.mesh = std::move(*known);
+    } else {
       data_.mesh.mesh = splitMesh(tracer_.scene());
       const size_t before = data_.mesh.mesh.positions().size();
       const MaskSettings masks{settings_.maskLevel, settings_.maskTolerance, settings_.subdivision,
                                0, budget_ / 4};
       if (settings_.subdivision > 0)
-        data_.mesh.mesh =
-            subdividedByMasks(tracer_, std::move(data_.mesh.mesh), masks, context_);
+        data_.mesh.mesh = subdividedByMasks(tracer_, std::move(data_.mesh.mesh), masks, context_);
       context_.debug(fmt::format("{} vertices, {} after subdivision", before,
                                  data_.mesh.mesh.positions().size()));
+      store_.putMesh(data_.mesh.mesh);
     }
     data_.mesh.vertices = transferVertices(tracer_.scene(), data_.mesh.mesh);
     context_.statistics.addCount("vertices", data_.mesh.vertices.size());
@@ -142,8 +145,9 @@ class Precomputation {
     BlockCounts counts;
     std::mutex mutex;
     forBlocks("rays and direct light", [&](size_t b) {
+      if (std::optional<BlockPass> known = store_.find(0, b, end(b) - b * kBlock))
+        return std::move(*known);
       BlockPass pass;
-      if (store_.find(0, b, &pass)) return pass;
       BlockRays rays;
       BlockCounts mine;
       directBlock(input, b * kBlock, end(b), &rays, &pass, &mine);
@@ -169,15 +173,16 @@ class Precomputation {
     return out;
   }
 
-  void bounce(const GatherInput& input, int j) {
+  void bounce(const GatherInput& input, size_t j) {
     const int64_t start = nanosecondsNow();
     BlockCounts counts;
     std::mutex mutex;
     forBlocks("bounces", [&](size_t b) {
+      if (std::optional<BlockPass> known = store_.find(j, b, end(b) - b * kBlock))
+        return std::move(*known);
       BlockPass pass;
-      if (store_.find(j, b, &pass)) return pass;
       BlockCounts mine;
-      bounceBlock(input, static_cast<size_t>(j), store_.rays(b), &pass, &mine);
+      bounceBlock(input, j, store_.rays(b), &pass, &mine);
       store_.put(j, b, pass);
       const std::lock_guard lock(mutex);
       counts.add(mine);
@@ -206,7 +211,8 @@ class Precomputation {
     throw RuntimeError(fmt::format(
         "{} of {} vertices in, {} have {:.0f} MB of transfer, more than --memory {:.0f} MB; fewer "
         "--directions or --bounces or a coarser mesh (--subdivide, --mask-tolerance) take less",
-        stage, data_.mesh.vertices.size(), std::min(blocksDone * kBlock, data_.mesh.vertices.size()),
+        stage, data_.mesh.vertices.size(),
+        std::min(blocksDone * kBlock, data_.mesh.vertices.size()),
         static_cast<double>(bytes) * 1e-6, static_cast<double>(budget_) * 1e-6));
   }
 

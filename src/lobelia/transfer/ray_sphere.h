@@ -12,7 +12,7 @@ struct RaySphere {
   RaySphere(int rays, const GeodesicGrid& directions);
 
   GeodesicGrid grid;
-  DirectionChunks chunks;          // of its directions
+  DirectionChunks chunks;             // of its directions
   relight::AlignedFloats solidAngle;  // by lane of the chunks; 0 after the last direction
   std::vector<GridPlace> back;  // by ray: the opposite of its direction among directions to the eye
 };

@@ -25,8 +25,8 @@ uint32_t packShare(Rgb share) {
   const auto bits = [&](float v) {
     return static_cast<uint32_t>(std::min(mantissa(v), static_cast<long>(kColourMask)));
   };
-  const uint32_t colours = bits(share.x) | bits(share.y) << kColourBits |
-                           bits(share.z) << 2 * kColourBits;
+  const uint32_t colours =
+      bits(share.x) | bits(share.y) << kColourBits | bits(share.z) << 2 * kColourBits;
   return colours == 0 ? 0 : colours | static_cast<uint32_t>(exponent) << 3 * kColourBits;
 }
 
@@ -46,7 +46,8 @@ float kappaOfCode(int code) {
 const Tables& tables() {
   static const Tables made = [] {
     Tables t{};
-    for (int e = 0; e < 32; ++e) t.scale[static_cast<size_t>(e)] = std::ldexp(1.f, e - kExponentBias);
+    for (int e = 0; e < 32; ++e)
+      t.scale[static_cast<size_t>(e)] = std::ldexp(1.f, e - kExponentBias);
     for (int c = 0; c < kKappaCodes; ++c)
       t.resultant[static_cast<size_t>(c)] =
           static_cast<float>(lobes::meanResultant(static_cast<double>(kappaOfCode(c))));
@@ -56,8 +57,8 @@ const Tables& tables() {
 }
 
 uint32_t codeOfLength(float r) {
-  const double kappa = lobes::inverseMeanResultant(
-      static_cast<double>(std::clamp(r, 0.f, 1 - 0x1p-20f)));
+  const double kappa =
+      lobes::inverseMeanResultant(static_cast<double>(std::clamp(r, 0.f, 1 - 0x1p-20f)));
   const double place = std::log(std::max(kappa / static_cast<double>(kLeastKappa), 1e-9)) /
                        std::log(static_cast<double>(kMostKappa / kLeastKappa));
   return static_cast<uint32_t>(

@@ -6,7 +6,8 @@
 namespace lobelia::transfer {
 
 SliceRows::SliceRows(size_t columns) : columns_(columns) {
-  if (columns > 0xffff) throw std::invalid_argument("rows of slices have fewer than 65,536 columns");
+  if (columns > 0xffff)
+    throw std::invalid_argument("rows of slices have fewer than 65,536 columns");
 }
 
 SliceRows::SliceRows(size_t columns, std::vector<uint64_t> bits, std::vector<SliceRecord> records)
