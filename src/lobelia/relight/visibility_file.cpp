@@ -12,6 +12,7 @@
 
 #include "lobelia/base/error.h"
 #include "lobelia/base/parallel.h"
+#include "lobelia/relight/mesh_chunks.h"
 #include "lobelia/relight/visibility_data.h"
 #include "lobelia/store/store.h"
 
@@ -20,11 +21,6 @@ namespace {
 
 constexpr const char* kKind = "visibility-cuts";
 constexpr uint32_t kVersion = 1;
-
-// A triangle with children, and where they begin.
-struct StoredSplit {
-  uint32_t triangle, firstChild, splitEdges;
-};
 
 [[noreturn]] void damaged(const std::string& file, const std::string& what) {
   throw InputError({file}, what + "; make it again with `lobelia precompute`");
@@ -78,43 +74,6 @@ CutSet readCuts(const store::Reader& reader, const std::string& file, int treeLe
   return cuts;
 }
 
-void addMesh(const SampleMesh& mesh, store::Writer* writer) {
-  const size_t roots = mesh.firstTriangle().back();
-  std::vector<StoredSplit> splits;
-  std::vector<std::array<uint32_t, 3>> children;
-  for (uint32_t t = 0; t < mesh.triangles().size(); ++t) {
-    const SampleTriangle& triangle = mesh.triangles()[t];
-    if (triangle.splitEdges != 0) splits.push_back({t, triangle.firstChild, triangle.splitEdges});
-    if (t >= roots) children.push_back(triangle.vertex);
-  }
-  writer->add("positions", mesh.positions());
-  writer->add("splits", spanOf(splits));
-  writer->add("children", spanOf(children));
-}
-
-SampleMesh readMesh(const store::Reader& reader, const std::string& file, const Scene& scene) {
-  const SampleMesh welded = weldedMesh(scene);
-  const auto positions = reader.get<Vec3f>("positions");
-  const auto splits = reader.get<StoredSplit>("splits");
-  std::vector<SampleTriangle> triangles(welded.triangles().begin(), welded.triangles().end());
-  for (const auto& vertex : reader.get<std::array<uint32_t, 3>>("children"))
-    triangles.push_back({vertex, 0, 0});
-  for (const StoredSplit& split : splits) {
-    if (split.triangle >= triangles.size()) damaged(file, "a split triangle is not there");
-    triangles[split.triangle].firstChild = split.firstChild;
-    triangles[split.triangle].splitEdges = split.splitEdges;
-  }
-  if (!std::all_of(positions.begin(), positions.end(), isFinite))
-    damaged(file, "a vertex's place is not finite");
-  try {
-    return {positions,
-            std::move(triangles),
-            {welded.firstTriangle().begin(), welded.firstTriangle().end()}};
-  } catch (const std::invalid_argument& e) {
-    damaged(file, e.what());
-  }
-}
-
 LightSamples readSamples(const store::Reader& reader, const std::string& file) {
   LightSamples samples;
   const auto kind = reader.get<uint32_t>("kind");
@@ -165,7 +124,7 @@ VisibilityData load(const std::string& file, const Scene& scene) {
   VisibilityData data;
   data.samples = readSamples(reader, file);
   data.tree = makeSampleTree(data.samples);
-  data.mesh = readMesh(reader, file, scene);
+  data.mesh = readMesh(reader, file, weldedMesh(scene));
   data.cuts = readCuts(reader, file, data.tree.levels);
   if (data.cuts.count() != data.mesh.positions().size())
     damaged(file, fmt::format("there are {} cuts for {} vertices", data.cuts.count(),

@@ -125,4 +125,21 @@ uint64_t hash(const Scene& scene) {
   return h.value();
 }
 
+uint64_t surfaceHash(const Scene& scene) {
+  StreamHash h;
+  // Images by what is in them: their numbers change with those of the emitters.
+  for (Texture texture : scene.textures) {
+    const ImageHandle image = texture.image;
+    texture.image = {};
+    h.add(texture);
+    if (image.valid()) h.add(scene[image]);
+  }
+  h.all(scene.materials), h.all(scene.meshes);
+  for (Instance instance : scene.instances) {
+    instance.emitter = {};
+    h.add(instance);
+  }
+  return h.value();
+}
+
 }  // namespace lobelia

@@ -47,9 +47,8 @@ VertexView SliceLookup::view(uint32_t vertex, Vec3f wo, const GridPlace& place) 
 }
 
 PlaceView SliceLookup::view(const relight::SurroundingVertices& around, const Reflection& own,
-                            Vec3f wo) const {
+                            Vec3f wo, const GridPlace& place) const {
   PlaceView out;
-  const GridPlace place = grid_.locate(wo);
   for (size_t v = 0; v < 3; ++v) out.vertices[v] = view(around.vertex[v], wo, place);
   out.weight = around.weight;
   out.own = own;

@@ -39,7 +39,12 @@ class SliceLookup {
   VertexView view(uint32_t vertex, Vec3f wo, const GridPlace& place) const;
   VertexView view(uint32_t vertex, Vec3f wo) const { return view(vertex, wo, grid_.locate(wo)); }
   // own: of the place, towards wo (ReflectionTables::summary() is enough).
-  PlaceView view(const relight::SurroundingVertices& around, const Reflection& own, Vec3f wo) const;
+  PlaceView view(const relight::SurroundingVertices& around, const Reflection& own, Vec3f wo,
+                 const GridPlace& place) const;
+  PlaceView view(const relight::SurroundingVertices& around, const Reflection& own,
+                 Vec3f wo) const {
+    return view(around, own, wo, grid_.locate(wo));
+  }
 
   // At a vertex. Of pass 0, and of a class of a pass after it: share 0 where there is nothing.
   VisiblePart visible(const VertexView& view) const;

@@ -1,0 +1,38 @@
+// What blocks of a precomputation have given so far: rays in memory, or all of it in a work folder,
+// from which a run that was stopped goes on, and which spares the memory for rays.
+#pragma once
+
+#include <atomic>
+
+#include "lobelia/transfer/gather_block.h"
+#include "lobelia/transfer/work_folder.h"
+
+namespace lobelia::transfer {
+
+class BlockStore {
+ public:
+  // rayLevel: of the grid that is used. Throws as WorkFolder does.
+  BlockStore(const TransferSettings& settings, int rayLevel, const Scene& scene, Context& context);
+
+  std::optional<relight::SampleMesh> mesh(const Scene& scene) const;
+  void putMesh(const relight::SampleMesh& mesh);
+  // Before blocks are asked for. columns: of rows of slices.
+  void setSize(size_t blocks, size_t columns);
+  // From any thread, for different blocks. None: it has to be made. rows: vertices of the block.
+  std::optional<BlockPass> find(size_t pass, size_t block, size_t rows);
+  void put(size_t pass, size_t block, const BlockPass& made);
+  BlockRays rays(size_t block) const;
+  void putRays(size_t block, BlockRays rays);
+
+  size_t resumed() const { return resumed_; }  // blocks that were there
+  void finish();                               // nothing is needed any more
+
+ private:
+  const int classCount_;
+  std::optional<WorkFolder> folder_;
+  size_t columns_ = 0;
+  std::vector<BlockRays> inMemory_;
+  std::atomic<size_t> resumed_{0};
+};
+
+}  // namespace lobelia::transfer

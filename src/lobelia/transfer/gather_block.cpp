@@ -1,0 +1,433 @@
+#include "lobelia/transfer/gather_block.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "lobelia/transfer/lobe_weights.h"
+
+namespace lobelia::transfer {
+namespace {
+
+// Slices of which less than this is in the way are taken for whole, and shares of a bounce below
+// it for nothing: a thousandth of a surface's own reflection.
+constexpr float kLeastShare = 1e-3f;
+
+constexpr size_t kLanes = relight::kChunk;
+constexpr uint32_t kAllLanes = (1u << kLanes) - 1;
+
+uint32_t lanesOf(std::span<const uint64_t> bits, size_t chunk) {
+  constexpr size_t kPerWord = 64 / kLanes;
+  const size_t word = chunk / kPerWord;
+  return word < bits.size()
+             ? static_cast<uint32_t>(bits[word] >> (chunk % kPerWord * kLanes)) & kAllLanes
+             : 0;
+}
+
+// Sums of what arrives along rays, for the lobe that it becomes.
+struct LobeTotal {
+  Rgb alpha{};
+  Vec3f first{};
+  void add(float weight, const LobeMoment& m) {
+    alpha += m.alpha * weight, first += m.first * weight;
+  }
+  // total: of the weights of all rays.
+  TransferLobe lobe(float total) const {
+    const float energy = luminance(alpha);
+    return {alpha / total, energy > 0 ? first / energy : Vec3f()};
+  }
+};
+
+// Weights of directions in a lobe, with their memory.
+class LobeWeights {
+ public:
+  explicit LobeWeights(const DirectionChunks& directions) : directions_(directions) {}
+  std::span<const uint32_t> find(const Bsdf& part, Vec3f wo) {
+    findChunks(directions_, part, wo, &chunks_);
+    return chunks_;
+  }
+  // kChunk weights for each of the chunks; good until the next call.
+  const float* evaluate(const Bsdf& part, Vec3f wo, std::span<const uint32_t> chunks) {
+    if (values_.size() < chunks.size() * kLanes) values_.resize(chunks.size() * kLanes);
+    lobeWeights(directions_, part, wo, chunks, values_.data());
+    return values_.data();
+  }
+
+ private:
+  const DirectionChunks& directions_;
+  std::vector<uint32_t> chunks_;
+  relight::AlignedFloats values_;
+};
+
+// A vertex and the parts of its Bsdf; for one side of it at a time.
+class Vertex {
+ public:
+  Vertex(const GatherInput& input, size_t index)
+      : input_(input),
+        index_(index),
+        at_(surfacePoint(input.tracer.scene(), input.data.mesh.vertices[index].hit())) {}
+
+  MaterialHandle material() const { return at_.material; }
+  Bsdf bsdf(Vec3f wo) const { return makeBsdf(input_.tracer.scene(), at_, wo, 0); }
+  // False: nothing is reflected towards wo.
+  bool reflection(Vec3f wo, Reflection* out) const {
+    const Vec3f n = input_.data.mesh.vertices[index_].n;
+    if (input_.tables.has(material())) return input_.tables.summary(material(), n, wo, out);
+    *out = reflectionOf(bsdf(wo), wo);
+    return out->count > 0 || out->diffuse != Rgb{};
+  }
+  Vec3f normal() const { return input_.data.mesh.vertices[index_].n; }
+
+ private:
+  const GatherInput& input_;
+  size_t index_;
+  SurfacePoint at_;
+};
+
+class DirectPass {
+ public:
+  DirectPass(const GatherInput& input, BlockRays* rays, BlockPass* pass, BlockCounts* counts)
+      : input_(input),
+        out_(*rays),
+        pass_(*pass),
+        counts_(*counts),
+        tracer_(input.tracer, input.rays.grid, input.data.mesh.mesh.firstTriangle()),
+        weights_(input.rays.chunks) {
+    pass_.glossy.assign(1, SliceRows(input.directions.count()));
+    pass_.reflection = SliceRows(input.directions.count());
+  }
+
+  void add(size_t index) {
+    const int64_t start = nanosecondsNow();
+    tracer_.trace(input_.faces.at(index), &rays_);
+    const int64_t traced = nanosecondsNow();
+    store();
+    const Vertex vertex(input_, index);
+    findObstructed(vertex.normal());
+    slices(vertex);
+    diffuse(vertex);
+    counts_.traceNs += traced - start, counts_.gatherNs += nanosecondsNow() - traced;
+  }
+  uint64_t rays() const { return tracer_.rays(); }
+
+ private:
+  void store() {
+    out_.blocked.insert(out_.blocked.end(), rays_.blocked.begin(), rays_.blocked.end());
+    out_.hits.insert(out_.hits.end(), rays_.hits.begin(), rays_.hits.end());
+    out_.hitStart.push_back(static_cast<uint32_t>(out_.hits.size()));
+    counts_.hits += rays_.hits.size();
+  }
+
+  // Chunks with a ray above the horizon, of either side, that is not free.
+  void findObstructed(Vec3f n) {
+    const RaySphere& sphere = input_.rays;
+    for (auto& o : obstructed_) o.assign(sphere.chunks.chunkCount(), 0);
+    for (size_t c = 0; c < sphere.chunks.chunkCount(); ++c) {
+      const uint32_t free = lanesOf(rays_.free, c);
+      if (free == kAllLanes) continue;
+      for (size_t l = 0; l < kLanes; ++l) {
+        const size_t i = c * kLanes + l;
+        if ((free >> l & 1) != 0 || sphere.solidAngle[i] == 0) continue;
+        const float cosine = dot(n, sphere.grid.directions()[i]);
+        if (cosine != 0) obstructed_[cosine < 0 ? 1 : 0][c] = 1;
+      }
+    }
+  }
+
+  void slices(const Vertex& vertex) {
+    columns_.clear(), records_.clear(), ownColumns_.clear(), ownRecords_.clear();
+    const bool tabulated = input_.tables.has(vertex.material());
+    for (uint32_t k = 0; k < input_.directions.count(); ++k) {
+      const Vec3f wo = input_.directions.directions()[k];
+      Reflection own;
+      if (!vertex.reflection(wo, &own) || luminance(own.glossy) <= 0) continue;
+      ++counts_.slices;
+      if (!tabulated) {
+        ownColumns_.push_back(k);
+        ownRecords_.push_back(pack({own.glossy, own.r}));
+      }
+      slice(vertex, k, wo);
+    }
+    pass_.glossy[0].addRow(columns_, records_);
+    pass_.reflection.addRow(ownColumns_, ownRecords_);
+    out_.sliceStart.push_back(static_cast<uint32_t>(out_.slices.size()));
+  }
+
+  void slice(const Vertex& vertex, uint32_t k, Vec3f wo) {
+    const auto& obstructed = obstructed_[dot(vertex.normal(), wo) < 0 ? 1 : 0];
+    const Bsdf part = glossyPart(vertex.bsdf(wo));
+    const std::span<const uint32_t> chunks = weights_.find(part, wo);
+    if (std::none_of(chunks.begin(), chunks.end(),
+                     [&](uint32_t c) { return obstructed[c] != 0; })) {
+      ++counts_.unoccluded;
+      return;
+    }
+    const float* w = weights_.evaluate(part, wo, chunks);
+    float all = 0, seen = 0;
+    Vec3f sum{};
+    for (size_t j = 0; j < chunks.size(); ++j, w += kLanes) {
+      const uint32_t free = lanesOf(rays_.free, chunks[j]);
+      for (size_t l = 0; l < kLanes; ++l) {
+        const size_t i = chunks[j] * kLanes + l;
+        const float weight = w[l] * input_.rays.solidAngle[i];
+        const float visible = (free >> l & 1) != 0 ? weight : 0;
+        all += weight, seen += visible;
+        sum += Vec3f(input_.rays.chunks.x[i], input_.rays.chunks.y[i], input_.rays.chunks.z[i]) *
+               visible;
+      }
+    }
+    if (!std::isfinite(all)) {
+      ++counts_.nonFinite;
+      return;
+    }
+    if (all <= 0 || seen >= (1 - kLeastShare) * all) {
+      ++counts_.unoccluded;
+      return;
+    }
+    const float share = seen / all;
+    out_.slices.push_back({k, all});
+    columns_.push_back(k);
+    records_.push_back(share < kLeastShare ? SliceRecord{} : pack({Rgb(share), sum / seen}));
+  }
+
+  void diffuse(const Vertex& vertex) {
+    float all = 0;
+    std::array<LobeTotal, kOctants> octants;
+    const Vec3f wo = vertex.normal();
+    const Bsdf part = diffusePart(vertex.bsdf(wo));
+    if (part.lobeCount > 0) {
+      const std::span<const uint32_t> chunks = weights_.find(part, wo);
+      const float* w = weights_.evaluate(part, wo, chunks);
+      for (size_t j = 0; j < chunks.size(); ++j, w += kLanes) {
+        const uint32_t free = lanesOf(rays_.free, chunks[j]);
+        for (size_t l = 0; l < kLanes; ++l) {
+          const size_t i = chunks[j] * kLanes + l;
+          const float weight = w[l] * input_.rays.solidAngle[i];
+          all += weight;
+          if ((free >> l & 1) == 0 || weight <= 0) continue;
+          const Vec3f d{input_.rays.chunks.x[i], input_.rays.chunks.y[i], input_.rays.chunks.z[i]};
+          octants[octantOf(d)].add(weight, {Rgb(1), d});
+        }
+      }
+    }
+    out_.diffuseWeight.push_back(std::isfinite(all) ? all : 0);
+    if (!std::isfinite(all)) ++counts_.nonFinite;
+    DiffuseLobes lobes{};
+    for (size_t o = 0; o < kOctants && all > 0 && std::isfinite(all); ++o)
+      lobes[o] = pack(octants[o].lobe(all));
+    pass_.diffuse.push_back(lobes);
+  }
+
+  const GatherInput& input_;
+  BlockRays& out_;
+  BlockPass& pass_;
+  BlockCounts& counts_;
+  RayTracer tracer_;
+  LobeWeights weights_;
+  VertexRays rays_;
+  std::array<std::vector<uint8_t>, 2> obstructed_;  // by side and chunk
+  std::vector<uint32_t> columns_, ownColumns_;
+  std::vector<SliceRecord> records_, ownRecords_;
+};
+
+// What arrives along a ray that ends at a surface.
+struct Incoming {
+  LobeMoment narrow, broad;  // of paths with glossy reflections alone, and of others
+  int narrowClass = 0;
+};
+
+class BouncePass {
+ public:
+  BouncePass(const GatherInput& input, size_t pass, BlockPass* out, BlockCounts* counts)
+      : input_(input),
+        scene_(input.tracer.scene()),
+        before_(pass - 1),
+        classes_(static_cast<size_t>(input.data.classCount)),
+        out_(*out),
+        counts_(*counts),
+        weights_(input.rays.chunks) {
+    out_.glossy.assign(classes_ + 1, SliceRows(input.directions.count()));
+    columns_.resize(classes_ + 1), records_.resize(classes_ + 1);
+  }
+
+  void add(const BlockRays& rays, size_t v) {
+    const int64_t start = nanosecondsNow();
+    const size_t words = rays.blocked.size() / std::max<size_t>(rays.count(), 1);
+    blocked_ = std::span(rays.blocked).subspan(v * words, words);
+    gather(std::span(rays.hits).subspan(rays.hitStart[v], rays.hitStart[v + 1] - rays.hitStart[v]));
+    const Vertex vertex(input_, rays.first + v);
+    for (auto& c : columns_) c.clear();
+    for (auto& r : records_) r.clear();
+    if (any_)
+      for (size_t s = rays.sliceStart[v]; s < rays.sliceStart[v + 1]; ++s)
+        slice(vertex, rays.slices[s]);
+    for (size_t c = 0; c <= classes_; ++c) out_.glossy[c].addRow(columns_[c], records_[c]);
+    diffuse(vertex, rays.diffuseWeight[v]);
+    counts_.gatherNs += nanosecondsNow() - start;
+  }
+
+ private:
+  void gather(std::span<const RayHit> hits) {
+    firstHit_.resize(input_.rays.chunks.chunkCount());
+    incoming_.clear();
+    any_ = false;
+    for (size_t c = 0; c < input_.rays.chunks.chunkCount(); ++c) {
+      firstHit_[c] = static_cast<uint32_t>(incoming_.size());
+      for (uint32_t lanes = lanesOf(blocked_, c); lanes != 0; lanes &= lanes - 1) {
+        const size_t ray = c * kLanes + static_cast<size_t>(std::countr_zero(lanes));
+        incoming_.push_back(arriving(hits[incoming_.size()], ray));
+      }
+    }
+  }
+
+  Incoming arriving(const RayHit& hit, size_t ray) {
+    Incoming in;
+    const uint32_t instance = input_.instanceOf[hit.triangle];
+    const MaterialHandle material = scene_.instances[instance].material;
+    in.narrowClass = classOf(material, input_.data.classCount);
+    const uint32_t triangle = hit.triangle - input_.data.mesh.mesh.firstTriangle()[instance];
+    const float b1 = static_cast<float>(hit.b1) / 65535, b2 = static_cast<float>(hit.b2) / 65535;
+    const auto around = input_.data.mesh.mesh.at(instance, triangle, b1, b2);
+    const Vec3f wo = -input_.rays.grid.directions()[ray];
+    const Reflection own = ownOf(material, around, {0, b1, b2, instance, triangle}, wo);
+    if (luminance(own.glossy) > 0) {
+      std::array<LobeMoment, kMostClasses + 1> byClass{};
+      const PlaceView view = input_.lookup.view(around, own, wo, input_.rays.back[ray]);
+      const auto& glossy = input_.data.passes[before_].glossy;
+      input_.lookup.glossy(view, before_, {byClass.data(), glossy.size()});
+      for (size_t c = 0; c < glossy.size(); ++c)
+        add(before_ > 0 && c + 1 == glossy.size() ? &in.broad : &in.narrow, byClass[c]);
+    }
+    if (luminance(own.diffuse) > 0 && !input_.diffuseBefore.empty())
+      add(&in.broad, diffuseOf(around, own.diffuse));
+    if (in.narrow.alpha != Rgb{} || in.broad.alpha != Rgb{}) any_ = true;
+    return in;
+  }
+
+  static void add(LobeMoment* to, const LobeMoment& m) {
+    to->alpha += m.alpha, to->first += m.first;
+  }
+
+  LobeMoment diffuseOf(const relight::SurroundingVertices& around, Rgb albedo) const {
+    LobeMoment all;
+    for (size_t i = 0; i < 3; ++i) {
+      const LobeMoment& m = input_.diffuseBefore[around.vertex[i]];
+      all.alpha += m.alpha * around.weight[i], all.first += m.first * around.weight[i];
+    }
+    const float energy = luminance(all.alpha);
+    if (energy <= 0) return {};
+    const Rgb alpha = all.alpha * albedo;
+    return {alpha, all.first * (luminance(alpha) / energy)};
+  }
+
+  // Between the vertices: tables by the mean of normals; else of the surface itself.
+  Reflection ownOf(MaterialHandle material, const relight::SurroundingVertices& around,
+                   const Hit& hit, Vec3f wo) const {
+    Reflection own;
+    if (input_.tables.has(material)) {
+      Vec3f n{};
+      for (size_t i = 0; i < 3; ++i)
+        n += input_.data.mesh.vertices[around.vertex[i]].n * around.weight[i];
+      const float size = length(n);
+      if (!(size > 0) || !input_.tables.summary(material, n / size, wo, &own)) return {};
+      return own;
+    }
+    return reflectionOf(makeBsdf(scene_, surfacePoint(scene_, hit), wo, 0), wo);
+  }
+
+  void slice(const Vertex& vertex, const SeeingSlice& slice) {
+    const Vec3f wo = input_.directions.directions()[slice.column];
+    const Bsdf part = glossyPart(vertex.bsdf(wo));
+    chunks_.clear();
+    for (const uint32_t c : weights_.find(part, wo))
+      if (lanesOf(blocked_, c) != 0) chunks_.push_back(c);
+    if (chunks_.empty()) return;
+    const float* w = weights_.evaluate(part, wo, chunks_);
+    std::array<LobeTotal, kMostClasses + 1> totals;
+    for (size_t j = 0; j < chunks_.size(); ++j, w += kLanes) {
+      const Incoming* in = &incoming_[firstHit_[chunks_[j]]];
+      for (uint32_t lanes = lanesOf(blocked_, chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
+        const auto l = static_cast<size_t>(std::countr_zero(lanes));
+        const float weight = w[l] * input_.rays.solidAngle[chunks_[j] * kLanes + l];
+        totals[static_cast<size_t>(in->narrowClass)].add(weight, in->narrow);
+        totals[classes_].add(weight, in->broad);
+      }
+    }
+    for (size_t c = 0; c <= classes_; ++c) {
+      const TransferLobe lobe = totals[c].lobe(slice.weight);
+      if (!isFinite(lobe.share) || !isFinite(lobe.r)) {
+        ++counts_.nonFinite;
+      } else if (maxComponent(lobe.share) >= kLeastShare) {
+        columns_[c].push_back(slice.column);
+        records_[c].push_back(pack(lobe));
+      }
+    }
+  }
+
+  void diffuse(const Vertex& vertex, float all) {
+    DiffuseLobes lobes{};
+    if (all > 0 && any_) {
+      std::array<LobeTotal, kOctants> octants;
+      const Vec3f wo = vertex.normal();
+      const Bsdf part = diffusePart(vertex.bsdf(wo));
+      chunks_.clear();
+      for (const uint32_t c : weights_.find(part, wo))
+        if (lanesOf(blocked_, c) != 0) chunks_.push_back(c);
+      const float* w = weights_.evaluate(part, wo, chunks_);
+      for (size_t j = 0; j < chunks_.size(); ++j, w += kLanes) {
+        const Incoming* in = &incoming_[firstHit_[chunks_[j]]];
+        for (uint32_t lanes = lanesOf(blocked_, chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
+          const auto l = static_cast<size_t>(std::countr_zero(lanes));
+          const float weight = w[l] * input_.rays.solidAngle[chunks_[j] * kLanes + l];
+          octants[octantOf(in->narrow.first)].add(weight, in->narrow);
+          octants[octantOf(in->broad.first)].add(weight, in->broad);
+        }
+      }
+      for (size_t o = 0; o < kOctants; ++o) {
+        const TransferLobe lobe = octants[o].lobe(all);
+        if (isFinite(lobe.share) && isFinite(lobe.r))
+          lobes[o] = pack(lobe);
+        else
+          ++counts_.nonFinite;
+      }
+    }
+    out_.diffuse.push_back(lobes);
+  }
+
+  const GatherInput& input_;
+  const Scene& scene_;
+  const size_t before_, classes_;
+  BlockPass& out_;
+  BlockCounts& counts_;
+  LobeWeights weights_;
+  std::span<const uint64_t> blocked_;
+  std::vector<uint32_t> firstHit_;  // by chunk: its first among incoming_
+  std::vector<Incoming> incoming_;  // by hit
+  bool any_ = false;                // does any light arrive?
+  std::vector<uint32_t> chunks_;
+  std::vector<std::vector<uint32_t>> columns_;  // by class
+  std::vector<std::vector<SliceRecord>> records_;
+};
+
+}  // namespace
+
+void BlockCounts::add(const BlockCounts& o) {
+  rays += o.rays, hits += o.hits, slices += o.slices, unoccluded += o.unoccluded;
+  nonFinite += o.nonFinite, traceNs += o.traceNs, gatherNs += o.gatherNs;
+}
+
+void directBlock(const GatherInput& input, size_t first, size_t end, BlockRays* rays,
+                 BlockPass* pass, BlockCounts* counts) {
+  rays->first = first;
+  DirectPass direct(input, rays, pass, counts);
+  for (size_t v = first; v < end; ++v) direct.add(v);
+  counts->rays += direct.rays();
+}
+
+void bounceBlock(const GatherInput& input, size_t pass, const BlockRays& rays, BlockPass* out,
+                 BlockCounts* counts) {
+  BouncePass bounce(input, pass, out, counts);
+  for (size_t v = 0; v < rays.count(); ++v) bounce.add(rays, v);
+}
+
+}  // namespace lobelia::transfer

@@ -1,0 +1,243 @@
+#include "lobelia/transfer/precompute.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/relight/visibility_data.h"
+#include "lobelia/transfer/block_store.h"
+#include "lobelia/transfer/gather_block.h"
+#include "lobelia/transfer/mask_subdivision.h"
+
+namespace lobelia::transfer {
+namespace {
+
+constexpr size_t kBlock = 256;  // vertices
+
+// So that a lobe's solid angle, 2 pi / kappa, has 37 rays or more; a third of the paper's, but
+// evenly spread. Sharper lobes than kappa 550 have fewer.
+int rayLevelFor(float kappa) {
+  int level = 5;
+  while (level < 6 && 10 * (size_t{1} << 2 * level) < static_cast<size_t>(75 * kappa)) ++level;
+  return level;
+}
+
+uint64_t budgetOf(const TransferSettings& settings) {
+  if (settings.memoryBytes > 0) return settings.memoryBytes;
+  return static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<uint64_t>(sysconf(_SC_PAGE_SIZE)) / 4 * 3;
+}
+
+std::vector<uint8_t> bothSidesOf(const Scene& scene) {
+  std::vector<uint8_t> out;
+  for (const Instance& instance : scene.instances)
+    out.push_back(relight::scattersBehind(scene, instance.material) ? 1 : 0);
+  return out;
+}
+
+std::vector<uint32_t> instanceOfTriangles(const relight::SampleMesh& mesh) {
+  std::vector<uint32_t> out;
+  for (uint32_t i = 0; i + 1 < mesh.firstTriangle().size(); ++i)
+    out.resize(mesh.firstTriangle()[i + 1], i);
+  return out;
+}
+
+class Precomputation {
+ public:
+  Precomputation(const Tracer& tracer, const TransferSettings& settings, Context& context)
+      : tracer_(tracer),
+        settings_(settings),
+        context_(context),
+        budget_(budgetOf(settings)),
+        tables_(tracer.scene()),
+        directions_(settings.directionLevel),
+        rays_(settings.rayLevel > 0 ? settings.rayLevel : rayLevelFor(tables_.sharpest()),
+              directions_),
+        store_(settings, rays_.grid.level(), tracer.scene(), context) {}
+
+  TransferData run() {
+    makeMesh();
+    const std::vector<uint8_t> bothSides = bothSidesOf(tracer_.scene());
+    const relight::VertexFaces faces(tracer_.scene(), data_.mesh.mesh,
+                                     relight::leafTriangles(data_.mesh.mesh), bothSides);
+    const std::vector<uint32_t> instanceOf = instanceOfTriangles(data_.mesh.mesh);
+    data_.directionLevel = settings_.directionLevel;
+    data_.classCount = settings_.classCount;
+    const SliceLookup lookup(tracer_.scene(), data_, tables_);
+    GatherInput input{tracer_, rays_, directions_, tables_, data_, lookup, faces, instanceOf, {}};
+    blocks_ = (data_.mesh.vertices.size() + kBlock - 1) / kBlock;
+    store_.setSize(blocks_, directions_.count());
+    direct(input);
+    for (size_t j = 1; j <= static_cast<size_t>(settings_.bounces); ++j) {
+      const std::vector<LobeMoment> diffuse = diffuseTotals();
+      input.diffuseBefore = diffuse;
+      bounce(input, j);
+    }
+    report();
+    store_.finish();
+    return std::move(data_);
+  }
+
+ private:
+  void makeMesh() {
+    const StageTimer timer(context_, "masks");
+    context_.progress("masks", 0);
+    if (std::optional<relight::SampleMesh> known = store_.mesh(tracer_.scene())) {
+      data_.mesh.mesh = std::move(*known);
+    } else {
+      data_.mesh.mesh = splitMesh(tracer_.scene());
+      const size_t before = data_.mesh.mesh.positions().size();
+      const MaskSettings masks{settings_.maskLevel, settings_.maskTolerance, settings_.subdivision,
+                               0, budget_ / 4};
+      if (settings_.subdivision > 0)
+        data_.mesh.mesh = subdividedByMasks(tracer_, std::move(data_.mesh.mesh), masks, context_);
+      context_.debug(fmt::format("{} vertices, {} after subdivision", before,
+                                 data_.mesh.mesh.positions().size()));
+      store_.putMesh(data_.mesh.mesh);
+    }
+    data_.mesh.vertices = transferVertices(tracer_.scene(), data_.mesh.mesh);
+    context_.statistics.addCount("vertices", data_.mesh.vertices.size());
+  }
+
+  size_t end(size_t block) const {
+    return std::min((block + 1) * kBlock, data_.mesh.vertices.size());
+  }
+
+  // Blocks one after the other, as many at a time as there are threads; what they give is taken in
+  // their order. make(block) -> BlockPass.
+  template <class Make>
+  void forBlocks(const char* stage, const Make& make) {
+    data_.passes.emplace_back();
+    std::atomic<size_t> done{0};
+    const size_t together = std::max<size_t>(8 * static_cast<size_t>(threadCount()), 1);
+    for (size_t first = 0; first < blocks_; first += together) {
+      std::vector<BlockPass> made(std::min(together, blocks_ - first));
+      parallelFor(made.size(), 1, [&](size_t i) {
+        if (context_.cancelled()) return;
+        made[i] = make(first + i);
+        context_.progress(stage, static_cast<double>(++done) / static_cast<double>(blocks_));
+      });
+      if (context_.cancelled()) throw Cancelled{};
+      for (BlockPass& block : made) take(std::move(block));
+      requireBudget(stage, first + made.size());
+    }
+  }
+
+  void take(BlockPass block) {
+    // Of the pass under way, which nobody reads before it is whole.
+    TransferPass& pass = data_.passes.back();
+    if (pass.glossy.empty())
+      pass.glossy.assign(block.glossy.size(), SliceRows(directions_.count()));
+    for (size_t c = 0; c < block.glossy.size(); ++c) pass.glossy[c].append(block.glossy[c]);
+    pass.diffuse.insert(pass.diffuse.end(), block.diffuse.begin(), block.diffuse.end());
+    if (block.reflection.rowCount() == 0) return;
+    if (data_.reflection.rowCount() == 0) data_.reflection = SliceRows(directions_.count());
+    data_.reflection.append(block.reflection);
+  }
+
+  void direct(const GatherInput& input) {
+    const int64_t start = nanosecondsNow();
+    BlockCounts counts;
+    std::mutex mutex;
+    forBlocks("rays and direct light", [&](size_t b) {
+      if (std::optional<BlockPass> known = store_.find(0, b, end(b) - b * kBlock))
+        return std::move(*known);
+      BlockPass pass;
+      BlockRays rays;
+      BlockCounts mine;
+      directBlock(input, b * kBlock, end(b), &rays, &pass, &mine);
+      store_.putRays(b, std::move(rays));
+      store_.put(0, b, pass);
+      const std::lock_guard lock(mutex);
+      counts.add(mine);
+      return pass;
+    });
+    add(counts, "direct", start);
+  }
+
+  // GatherInput::diffuseBefore of the last pass.
+  std::vector<LobeMoment> diffuseTotals() const {
+    const std::vector<DiffuseLobes>& lobes = data_.passes.back().diffuse;
+    std::vector<LobeMoment> out(lobes.size());
+    parallelFor(lobes.size(), 256, [&](size_t v) {
+      for (const SliceRecord record : lobes[v]) {
+        const TransferLobe lobe = unpack(record);
+        out[v].alpha += lobe.share, out[v].first += lobe.r * luminance(lobe.share);
+      }
+    });
+    return out;
+  }
+
+  void bounce(const GatherInput& input, size_t j) {
+    const int64_t start = nanosecondsNow();
+    BlockCounts counts;
+    std::mutex mutex;
+    forBlocks("bounces", [&](size_t b) {
+      if (std::optional<BlockPass> known = store_.find(j, b, end(b) - b * kBlock))
+        return std::move(*known);
+      BlockPass pass;
+      BlockCounts mine;
+      bounceBlock(input, j, store_.rays(b), &pass, &mine);
+      store_.put(j, b, pass);
+      const std::lock_guard lock(mutex);
+      counts.add(mine);
+      return pass;
+    });
+    add(counts, "bounce", start);
+  }
+
+  void add(const BlockCounts& counts, const char* stage, int64_t start) {
+    const double seconds = static_cast<double>(nanosecondsNow() - start) * 1e-9;
+    const auto spent = static_cast<double>(counts.traceNs + counts.gatherNs);
+    const double trace = spent > 0 ? seconds * static_cast<double>(counts.traceNs) / spent : 0;
+    Statistics& s = context_.statistics;
+    s.addSeconds("trace", trace);
+    s.addSeconds(stage, seconds - trace);
+    s.addCount("transfer_rays", counts.rays);
+    s.addCount("hits", counts.hits);
+    s.addCount("slices", counts.slices);
+    s.addCount("slices_unoccluded", counts.unoccluded);
+    s.addCount("nonfinite", counts.nonFinite);
+  }
+
+  void requireBudget(const char* stage, size_t blocksDone) const {
+    const uint64_t bytes = data_.byteCount();
+    if (bytes <= budget_) return;
+    throw RuntimeError(fmt::format(
+        "{} of {} vertices in, {} have {:.0f} MB of transfer, more than --memory {:.0f} MB; fewer "
+        "--directions or --bounces or a coarser mesh (--subdivide, --mask-tolerance) take less",
+        stage, data_.mesh.vertices.size(),
+        std::min(blocksDone * kBlock, data_.mesh.vertices.size()),
+        static_cast<double>(bytes) * 1e-6, static_cast<double>(budget_) * 1e-6));
+  }
+
+  void report() const {
+    context_.statistics.addCount("records", data_.recordCount());
+    context_.statistics.addCount("blocks_resumed", store_.resumed());
+  }
+
+  const Tracer& tracer_;
+  const TransferSettings& settings_;
+  Context& context_;
+  const uint64_t budget_;
+  const ReflectionTables tables_;
+  const GeodesicGrid directions_;
+  const RaySphere rays_;
+  BlockStore store_;
+  TransferData data_;
+  size_t blocks_ = 0;
+};
+
+}  // namespace
+
+TransferData precomputeTransfer(const Tracer& tracer, const TransferSettings& settings,
+                                Context& context) {
+  return Precomputation(tracer, settings, context).run();
+}
+
+}  // namespace lobelia::transfer
