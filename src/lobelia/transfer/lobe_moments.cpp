@@ -79,11 +79,40 @@ void quadraturePoints(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t cou
 }
 
 LobeMoments glossyMoments(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t count) {
-  LobeMoments sum;
+  // In doubles: the length of a sharp lobe's mean direction is one less a ten-thousandth.
+  Vec3d albedo{}, first{};
   forEachPoint(bsdf, lobe, wo, count, [&](Vec3f w, Rgb weight, float) {
-    sum.albedo += weight;
-    sum.first += w * luminance(weight);
+    const auto l = static_cast<double>(luminance(weight));
+    for (int i = 0; i < 3; ++i) {
+      albedo[i] += static_cast<double>(weight[i]);
+      first[i] += static_cast<double>(w[i]) * l;
+    }
   });
+  const auto rounded = [](Vec3d v) {
+    return Vec3f(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+  };
+  return {rounded(albedo), rounded(first)};
+}
+
+MomentPair momentPair(const Bsdf& bsdf, const Lobe& lobe, const Lobe& other, Vec3f wo,
+                      uint32_t count) {
+  const ShadingFrame& frame = bsdf.frameOf(lobe);
+  const Vec3f o = frame.toLocal(wo);
+  MomentPair sum;
+  for (uint32_t i = 0; i < count; ++i) {
+    const auto local = sampleLobe(other, o, latticePoint(i, count));
+    if (!local) continue;
+    const LobeValue value = evaluateWithPdf(other, o, *local);
+    if (!(value.pdf > 0) || !(maxComponent(value.value) > 0)) continue;
+    const float solidAngle = 1 / (static_cast<float>(count) * value.pdf);
+    const Vec3f w = frame.toWorld(*local);
+    const Rgb weight = value.value * solidAngle;
+    const Rgb own =
+        evaluateLobe(lobe, o, *local) * (solidAngle * throughBumps(bsdf, frame, w, local->z));
+    if (!isFinite(weight) || !isFinite(own)) continue;
+    sum.other.add({weight, w * luminance(weight)});
+    sum.own.add({own, w * luminance(own)});
+  }
   return sum;
 }
 
