@@ -79,12 +79,19 @@ void quadraturePoints(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t cou
 }
 
 LobeMoments glossyMoments(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t count) {
-  LobeMoments sum;
+  // In doubles: the length of a sharp lobe's mean direction is one less a ten-thousandth.
+  Vec3d albedo{}, first{};
   forEachPoint(bsdf, lobe, wo, count, [&](Vec3f w, Rgb weight, float) {
-    sum.albedo += weight;
-    sum.first += w * luminance(weight);
+    const auto l = static_cast<double>(luminance(weight));
+    for (int i = 0; i < 3; ++i) {
+      albedo[i] += static_cast<double>(weight[i]);
+      first[i] += static_cast<double>(w[i]) * l;
+    }
   });
-  return sum;
+  const auto rounded = [](Vec3d v) {
+    return Vec3f(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+  };
+  return {rounded(albedo), rounded(first)};
 }
 
 std::optional<Rgb> closedAlbedo(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo) {

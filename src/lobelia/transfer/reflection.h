@@ -35,18 +35,23 @@ Bsdf diffusePart(const Bsdf& bsdf);
 Bsdf glossyPart(const Bsdf& bsdf);
 Reflection reflectionOf(const Bsdf& bsdf, Vec3f wo);
 
-// Tables of a scene's materials.
+// Tables of a scene's materials. What is looked up is within .3 % of a Bsdf's albedos and .1 degree
+// of its mean directions; lobes are closer to it than those of reflectionOf() (reflection_table.h).
 class ReflectionTables {
  public:
-  // Keeps a reference. Tables of all isotropic materials without textures; others have none.
+  // Tables of all isotropic materials without textures that an instance has; others have none.
+  // Up to half a second each, in parallel.
   explicit ReflectionTables(const Scene& scene);
   ~ReflectionTables();
   bool has(MaterialHandle material) const;
-  // n: unit, outside; wo: unit. False where wo is behind a surface that reflects in front alone.
+  // Of a material that has a table. n: unit, outside; wo: unit. False where the material reflects
+  // nothing on wo's side.
   bool at(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const;
-  // The same without lobes, for sums of many: albedos, mirror and r.
+  // The same without lobes, for sums of many.
   bool summary(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const;
-  // kappa of the sharpest glossy lobe of any material that is used; 0: there is none.
+  // kappa of the sharpest glossy lobe of any material that is used, for directions of wo up to 45
+  // degrees from the normal; of textured materials where some triangles have their middles. 0:
+  // there is none.
   float sharpest() const;
   bool anyDiffuse() const;
 

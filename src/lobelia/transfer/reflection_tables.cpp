@@ -1,0 +1,125 @@
+// Tables of a scene's materials (reflection.h): for each that an instance uses, at a point made up
+// for it, since without textures all points are alike.
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lobelia/base/parallel.h"
+#include "lobelia/transfer/reflection_table.h"
+#include "lobelia/transfer/transfer_mesh.h"
+
+namespace lobelia::transfer {
+namespace {
+
+constexpr uint32_t kMostTriangles =
+    64;  // of an instance, at which textured materials are looked at
+
+using Sides = std::array<ReflectionTable, 2>;  // in front, behind
+
+// The Bsdf of an instance at a triangle, in the frame z = normal.
+Bsdf bsdfAt(const Scene& scene, uint32_t instance, uint32_t triangle, Vec3f wo) {
+  SurfacePoint point = surfacePoint(scene, {0, 1.f / 3, 1.f / 3, instance, triangle});
+  point.frame = Frame{};
+  point.ng = point.frame.n, point.dpdu = point.frame.s, point.dpdv = point.frame.t;
+  return makeBsdf(scene, point, wo, 0);
+}
+
+bool isIsotropic(const Bsdf& bsdf) {
+  const Bsdf glossy = glossyPart(bsdf);
+  for (int i = 0; i < glossy.lobeCount; ++i)
+    if (glossy.lobes[i].type != LobeType::phong && glossy.lobes[i].alphaX != glossy.lobes[i].alphaY)
+      return false;
+  return true;
+}
+
+std::unique_ptr<Sides> tablesOf(const Scene& scene, uint32_t instance) {
+  const auto at = [&](Vec3f wo) { return bsdfAt(scene, instance, 0, wo); };
+  for (const float side : {1.f, -1.f})
+    if (!isIsotropic(at({0.6f, 0, 0.8f * side}))) return nullptr;
+  return std::make_unique<Sides>(Sides{ReflectionTable(at, false), ReflectionTable(at, true)});
+}
+
+// What is asked of all materials, of an instance whose material has no table.
+struct Extremes {
+  float sharpest = 0;
+  bool anyDiffuse = false;
+};
+Extremes extremesOf(const Scene& scene, uint32_t instance) {
+  Extremes out;
+  const size_t triangles = scene[scene.instances[instance].mesh].triangles.size();
+  const size_t looks = std::min<size_t>(triangles, kMostTriangles);
+  for (size_t i = 0; i < looks; ++i)
+    for (const float side : {1.f, -1.f}) {
+      const auto triangle = static_cast<uint32_t>(i * triangles / looks);
+      const Vec3f wo(0.05f, 0, side);
+      const Reflection r =
+          reflectionOf(bsdfAt(scene, instance, triangle, normalize(wo)), normalize(wo));
+      out.anyDiffuse |= maxComponent(r.diffuse) > 0;
+      if (r.count > 0) out.sharpest = std::max(out.sharpest, r.lobes[0].kappa);
+    }
+  return out;
+}
+
+}  // namespace
+
+struct ReflectionTables::Impl {
+  std::vector<std::unique_ptr<Sides>> tables;  // by material
+  Extremes extremes;
+};
+
+ReflectionTables::ReflectionTables(const Scene& scene) : impl_(std::make_unique<Impl>()) {
+  impl_->tables.resize(scene.materials.size());
+  std::vector<std::optional<uint32_t>> users(scene.materials.size());  // an instance each
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    if (instance.material.valid() && !scene[instance.mesh].triangles.empty())
+      users[instance.material.index] = i;
+  }
+  parallelFor(users.size(), 1, [&](size_t i) {
+    const MaterialHandle material{static_cast<uint32_t>(i)};
+    if (users[i] && !isTextured(scene, material)) impl_->tables[i] = tablesOf(scene, *users[i]);
+  });
+  std::vector<Extremes> found(scene.instances.size());
+  parallelFor(scene.instances.size(), 1, [&](size_t i) {
+    const MaterialHandle material = scene.instances[i].material;
+    if (material.valid() && !has(material)) found[i] = extremesOf(scene, static_cast<uint32_t>(i));
+  });
+  for (const auto& sides : impl_->tables)
+    if (sides)
+      for (const ReflectionTable& table : *sides)
+        found.push_back({table.sharpest(), table.anyDiffuse()});
+  for (const Extremes& one : found) {
+    impl_->extremes.sharpest = std::max(impl_->extremes.sharpest, one.sharpest);
+    impl_->extremes.anyDiffuse |= one.anyDiffuse;
+  }
+}
+
+ReflectionTables::~ReflectionTables() = default;
+
+bool ReflectionTables::has(MaterialHandle material) const {
+  return material.index < impl_->tables.size() && impl_->tables[material.index] != nullptr;
+}
+
+bool ReflectionTables::at(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const {
+  const float cosine = dot(n, wo);
+  const ReflectionTable& table = (*impl_->tables[material.index])[cosine < 0 ? 1 : 0];
+  if (!table.reflects()) return false;
+  table.lookUp(std::abs(cosine), cosine < 0 ? -n : n, wo, out);
+  return true;
+}
+
+bool ReflectionTables::summary(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const {
+  const float cosine = dot(n, wo);
+  const ReflectionTable& table = (*impl_->tables[material.index])[cosine < 0 ? 1 : 0];
+  if (!table.reflects()) return false;
+  table.summary(std::abs(cosine), cosine < 0 ? -n : n, wo, out);
+  return true;
+}
+
+float ReflectionTables::sharpest() const { return impl_->extremes.sharpest; }
+
+bool ReflectionTables::anyDiffuse() const { return impl_->extremes.anyDiffuse; }
+
+}  // namespace lobelia::transfer
