@@ -3,11 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-#include <set>
-
 #include "lobelia/base/parallel.h"
 #include "lobelia/relight/vertex_faces.h"
+#include "relight/cracks.h"
 #include "relight/scenes.h"
 
 namespace lobelia::relight {
@@ -28,9 +26,6 @@ SampleMesh divided(const Scene& scene, int rounds, Context& context, size_t allo
                     context, allowed);
 }
 
-using Place = std::array<float, 3>;
-Place key(Vec3f p) { return {p.x, p.y, p.z}; }
-
 TEST(Subdivision, LeavesNoCracks) {
   const Scene scene = test::ballScene(4);
   Context context;
@@ -38,27 +33,7 @@ TEST(Subdivision, LeavesNoCracks) {
   ASSERT_GT(context.statistics.count("vertices_added"), 20u);
   EXPECT_EQ(context.statistics.count("vertices_added"),
             mesh.positions().size() - weldedMesh(scene).positions().size());
-  std::set<Place> places;
-  for (const Vec3f p : mesh.positions()) EXPECT_TRUE(places.insert(key(p)).second) << "twice";
-  // No vertex lies in the middle of an edge, and each edge inside of a surface has two triangles.
-  std::map<std::pair<uint32_t, uint32_t>, int> uses;
-  std::map<uint32_t, double> areas;
-  for (const LeafTriangle& t : leafTriangles(mesh)) {
-    const auto p = [&](size_t k) { return mesh.positions()[t.vertex[k]]; };
-    areas[t.instance] += 0.5 * double{length(cross(p(1) - p(0), p(2) - p(0)))};
-    for (size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(t.vertex[k], t.vertex[(k + 1) % 3]);
-      ++uses[{a, b}];
-      EXPECT_EQ(places.count(key((mesh.positions()[a] + mesh.positions()[b]) * 0.5f)), 0u);
-    }
-  }
-  for (const auto& [edge, count] : uses) {
-    const Vec3f a = mesh.positions()[edge.first], b = mesh.positions()[edge.second];
-    const bool border = a.z == 0 && b.z == 0 &&
-                        ((std::abs(a.x) == 1 && a.x == b.x) || (std::abs(a.y) == 1 && a.y == b.y));
-    EXPECT_EQ(count, border ? 1 : 2);
-  }
-  EXPECT_NEAR(areas[0], 4, 1e-5);
+  test::expectNoCracks(mesh, 4);
 }
 
 TEST(Subdivision, AddsVerticesWhereTheShadowIs) {

@@ -154,7 +154,8 @@ TEST(PrecomputeTransfer, AClosedRoomKeepsItsAlbedosProduct) {
   // Seen from inside nothing of infinity is visible through walls: light comes in by the lid that
   // is missing, and what a room of albedo one receives in all passes is all there is.
   Scene scene;
-  place(scene, test::sphereMesh(24, 16, true), scaling({-1, 1, 1}));
+  place(scene, test::sphereMesh(24, 16, true));
+  scene.instances[0].flipNormals = true;
   scene.instances[0].material = test::addMaterial(scene, phong(Rgb(0.7f), Rgb(0.f), 8));
   Context context;
   const Tracer tracer(scene, context);

@@ -89,6 +89,26 @@ TEST(Reflection, ManyLobesShareFourPlaces) {
   EXPECT_LT(length(sum - energies), 0.002f * length(sum));
 }
 
+// A frame that leans away from the surface: points for the ratio to the flat lobe.
+TEST(Reflection, KnowsTheTerminatorOfBumps) {
+  for (const float alpha : {0.05f, 0.3f}) {
+    Bsdf bsdf =
+        test::single(test::microfacets(Distribution::ggx, alpha, alpha, Fresnel::dielectric));
+    bsdf.add(test::simple(LobeType::lambert));
+    bsdf.frames[0] = frameFromNormal(normalize(Vec3f(0.4f, 0, 1)));
+    bsdf.frames[0].perturbed = true;
+    bsdf.frames[0].bumpAlpha2 = 0.02f;
+    const Vec3f wo = normalize(Vec3f(-0.5f, 0.3f, 0.6f));
+    const auto glossy = integrated(glossyPart(bsdf), wo, alpha);
+    const Reflection r = reflectionOf(bsdf, wo);
+    EXPECT_NEAR(r.glossy.x, glossy[0], 0.01 * glossy[0]);
+    EXPECT_LT(r.glossy.x, 0.98f * lobeAlbedo(bsdf.lobes[0], dot(wo, bsdf.frames[0].n)).x);
+    const auto diffuse = integrated(diffusePart(bsdf), wo, 1);
+    EXPECT_NEAR(r.diffuse.x, diffuse[0], 0.01 * diffuse[0]);
+    EXPECT_LT(r.diffuse.x, 0.99f);
+  }
+}
+
 TEST(Reflection, AlbedosAndMeanDirectionsAreThoseOfTheBsdf) {
   for (const test::Example& example : test::examples())
     for (const Vec3f wo : {test::directionAt(0.95f, 0.4f), test::directionAt(0.5f, 2.f),
@@ -96,13 +116,14 @@ TEST(Reflection, AlbedosAndMeanDirectionsAreThoseOfTheBsdf) {
       SCOPED_TRACE(example.name + " " + std::to_string(wo.z));
       const Reflection r = reflectionOf(example.bsdf, wo);
       const float spread = spreadOf(example);
+      const double tolerance = example.name.starts_with("coated") ? 0.01 : 0.005;
       const auto diffuse = integrated(diffusePart(example.bsdf), wo, 1);
       const auto glossy = integrated(glossyPart(example.bsdf), wo, spread);
       for (int i = 0; i < 3; ++i) {
         EXPECT_NEAR(r.diffuse[i], diffuse[static_cast<size_t>(i)],
                     0.005 * diffuse[static_cast<size_t>(i)]);
         EXPECT_NEAR(r.glossy[i], glossy[static_cast<size_t>(i)],
-                    0.005 * glossy[static_cast<size_t>(i)]);
+                    tolerance * glossy[static_cast<size_t>(i)]);
       }
       const Vec3f exact(static_cast<float>(glossy[3]), static_cast<float>(glossy[4]),
                         static_cast<float>(glossy[5]));
@@ -112,7 +133,7 @@ TEST(Reflection, AlbedosAndMeanDirectionsAreThoseOfTheBsdf) {
                         static_cast<float>(glossy[2])));
       ASSERT_EQ(r.count > 0, energy > 0);
       if (r.count == 0) continue;
-      EXPECT_LT(length(r.r - exact / exactEnergy), 0.013f);
+      EXPECT_LT(length(r.r - exact / exactEnergy), 0.02f);
       Rgb sum{};
       for (int i = 0; i < r.count; ++i) {
         const ReflectedLobe& lobe = r.lobes[static_cast<size_t>(i)];

@@ -94,6 +94,28 @@ LobeMoments glossyMoments(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t
   return {rounded(albedo), rounded(first)};
 }
 
+MomentPair momentPair(const Bsdf& bsdf, const Lobe& lobe, const Lobe& other, Vec3f wo,
+                      uint32_t count) {
+  const ShadingFrame& frame = bsdf.frameOf(lobe);
+  const Vec3f o = frame.toLocal(wo);
+  MomentPair sum;
+  for (uint32_t i = 0; i < count; ++i) {
+    const auto local = sampleLobe(other, o, latticePoint(i, count));
+    if (!local) continue;
+    const LobeValue value = evaluateWithPdf(other, o, *local);
+    if (!(value.pdf > 0) || !(maxComponent(value.value) > 0)) continue;
+    const float solidAngle = 1 / (static_cast<float>(count) * value.pdf);
+    const Vec3f w = frame.toWorld(*local);
+    const Rgb weight = value.value * solidAngle;
+    const Rgb own =
+        evaluateLobe(lobe, o, *local) * (solidAngle * throughBumps(bsdf, frame, w, local->z));
+    if (!isFinite(weight) || !isFinite(own)) continue;
+    sum.other.add({weight, w * luminance(weight)});
+    sum.own.add({own, w * luminance(own)});
+  }
+  return sum;
+}
+
 std::optional<Rgb> closedAlbedo(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo) {
   const ShadingFrame& frame = bsdf.frameOf(lobe);
   const float cosine = dot(wo, frame.n);

@@ -31,6 +31,14 @@ void quadraturePoints(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t cou
 
 LobeMoments glossyMoments(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t count);
 
+// Those of a lobe and of another that is like it in shape, by the same points, which are the
+// other's: for the ratio. What bump maps take away is in the first alone.
+struct MomentPair {
+  LobeMoments own, other;
+};
+MomentPair momentPair(const Bsdf& bsdf, const Lobe& lobe, const Lobe& other, Vec3f wo,
+                      uint32_t count);
+
 // Albedo of a lobe from tables, within .5 % of quadrature; empty where these are only estimates
 // (anisotropic lobes, interfaces seen from inside, lobes under layers or under bump maps).
 std::optional<Rgb> closedAlbedo(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo);

@@ -1,6 +1,7 @@
 #include "lobelia/transfer/prefiltered_light.h"
 
 #include <cmath>
+#include <span>
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/transfer/cube_map.h"
@@ -48,25 +49,29 @@ std::vector<float> texelCoordinates(int size) {
 constexpr size_t kBlock = 4;  // texels along an edge, whose lumps are looked for together
 static_assert(kBlock * kBlock == kBlockTexels);
 
-// The block whose face coordinates begin at u and v, with all that reaches it.
-TexelBlock blockAt(size_t face, const float* u, const float* v, const LightLumps& lumps,
-                   float reach, Rgb everywhere,
-                   std::vector<std::pair<uint32_t, uint32_t>>* ranges) {
+// The lumps that reach the block whose face coordinates begin at u and v.
+void findAround(size_t face, const float* u, const float* v, const LightLumps& lumps, float reach,
+                std::vector<std::pair<uint32_t, uint32_t>>* ranges) {
+  constexpr size_t kLast = kBlock - 1;
+  const Vec3f middle = cubeDirection(face, 0.5f * (u[0] + u[kLast]), 0.5f * (v[0] + v[kLast]));
+  float most = 0;  // chord to a corner
+  for (const float cornerU : {u[0], u[kLast]})
+    for (const float cornerV : {v[0], v[kLast]})
+      most = std::max(most, length(cubeDirection(face, cornerU, cornerV) - middle));
+  ranges->clear();
+  lumps.find(middle, std::min(reach + 2 * std::asin(most / 2), kPi), ranges);
+}
+
+// That block, with all that reaches it.
+TexelBlock blockAt(size_t face, const float* u, const float* v, const LumpLobes& lobes,
+                   std::span<const std::pair<uint32_t, uint32_t>> ranges, Rgb everywhere) {
   TexelBlock block;
-  Vec3f sum{};
   for (size_t t = 0; t < kBlockTexels; ++t) {
     const Vec3f d = cubeDirection(face, u[t % kBlock], v[t / kBlock]);
     block.x[t] = d.x, block.y[t] = d.y, block.z[t] = d.z;
     block.r[t] = everywhere.x, block.g[t] = everywhere.y, block.b[t] = everywhere.z;
-    sum += d;
   }
-  const Vec3f middle = normalize(sum);
-  float most = 0;  // chord
-  for (size_t t = 0; t < kBlockTexels; ++t)
-    most = std::max(most, length(Vec3f(block.x[t], block.y[t], block.z[t]) - middle));
-  ranges->clear();
-  lumps.find(middle, std::min(reach + 2 * std::asin(most / 2), kPi), ranges);
-  for (const auto& [begin, end] : *ranges) addLumps(lumps.lobes(), begin, end, &block);
+  for (const auto& [begin, end] : ranges) addLumps(lobes, begin, end, &block);
   return block;
 }
 
@@ -85,7 +90,9 @@ PrefilteredLight::PrefilteredLight(const relight::DistantLight& light) {
 
 void PrefilteredLight::fill(const relight::DistantLight& light, Level* level) const {
   const auto size = static_cast<size_t>(level->size);
-  level->texels.resize(6 * size * size);
+  const Texel nothing{{light.everywhere.x, light.everywhere.y, light.everywhere.z, 0}};
+  level->texels.assign(6 * size * size, nothing);
+  if (light.powers.empty()) return;
   const std::vector<float> at = texelCoordinates(level->size);
   const LightLumps lumps(light.powers, level->kappa, lumpWidth(level->kappa));
   const float reach = reachOf(level->kappa);
@@ -94,8 +101,10 @@ void PrefilteredLight::fill(const relight::DistantLight& light, Level* level) co
     std::vector<std::pair<uint32_t, uint32_t>> ranges;
     const size_t face = row / rows, y = row % rows * kBlock;
     for (size_t x = 0; x < size; x += kBlock) {
+      findAround(face, at.data() + x, at.data() + y, lumps, reach, &ranges);
+      if (ranges.empty()) continue;
       const TexelBlock block =
-          blockAt(face, at.data() + x, at.data() + y, lumps, reach, light.everywhere, &ranges);
+          blockAt(face, at.data() + x, at.data() + y, lumps.lobes(), ranges, light.everywhere);
       Texel* const out = level->texels.data() + (face * size + y) * size + x;
       for (size_t t = 0; t < kBlockTexels; ++t)
         out[t / kBlock * size + t % kBlock] = {{block.r[t], block.g[t], block.b[t], 0}};

@@ -6,26 +6,11 @@
 
 #include "lobelia/base/frame.h"
 #include "lobelia/bsdf/scalar_lobe.h"
-#include "lobelia/transfer/lobe_moments.h"
+#include "lobelia/transfer/quick_moments.h"
 #include "lobelia/transfer/reflected_lobes.h"
 
 namespace lobelia::transfer {
 namespace {
-
-// Of a lobe's quadrature: for its mean direction alone, and where it has no closed albedo.
-constexpr uint32_t kDirectionPoints = 256, kPoints = 1024;
-
-// Few points do for the mean direction. The albedo then is that of tables.
-LobeMoments momentsOf(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo) {
-  const auto closed = closedAlbedo(bsdf, lobe, wo);
-  LobeMoments moments = glossyMoments(bsdf, lobe, wo, closed ? kDirectionPoints : kPoints);
-  const float energy = luminance(moments.albedo);
-  if (closed && energy > 0) {
-    moments.first *= luminance(*closed) / energy;
-    moments.albedo = *closed;
-  }
-  return moments;
-}
 
 // The active lobes of a Bsdf, in its order.
 struct ActiveLobes {
@@ -55,7 +40,7 @@ void addGlossy(const Bsdf& glossy, Vec3f wo, Reflection* out) {
   LobeMoments all, rest;
   for (int i = 0; i < active.count; ++i) {
     const Lobe& lobe = *active.lobes[static_cast<size_t>(i)];
-    const LobeMoments moments = momentsOf(glossy, lobe, wo);
+    const LobeMoments moments = quickMoments(glossy, lobe, wo);
     all.add(moments);
     const int left = active.count - i, room = Reflection::kMostLobes - out->count;
     if (room == 1 && left + i > Reflection::kMostLobes) {
