@@ -106,7 +106,8 @@ bool interrupted(const std::string& arguments, const std::string& folder, int fi
 
 TEST_F(PrecomputeVmf, GoesOnWhereItWasStopped) {
   const std::string work = folder_ / "work", said = folder_ / "said";
-  const std::string run = quick_ + "--subdivide 4 --mask-level 4 --bounces 4 --work " + work;
+  const std::string run =
+      quick_ + "--subdivide 3 --mask-level 4 --mask-tolerance 0.05 --bounces 2 --work " + work;
   ASSERT_EQ(runProgram(run + " --quiet -o " + (folder_ / "whole")).exitCode, 0);
   bool stopped = false;
   for (int i = 0; i < 20 && !stopped; ++i) {  // a busy machine may need several tries

@@ -71,6 +71,7 @@ Json statisticsJson(const PrecomputeOptions& options, const TransferSettings& se
        {"rays", options.rays},
        {"mask_level", settings.maskLevel},
        {"mask_tolerance", std::stod(fmt::format("{}", settings.maskTolerance))},
+       {"max_vertices", settings.mostVertices},
        {"subdivide", settings.subdivision},
        {"memory", settings.memoryBytes}});
   json["transfer"] = transferJson(options, data);
