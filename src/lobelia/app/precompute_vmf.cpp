@@ -70,6 +70,7 @@ Json statisticsJson(const PrecomputeOptions& options, const TransferSettings& se
                              {"rays", options.rays},
                              {"mask_level", settings.maskLevel},
                              {"mask_tolerance", settings.maskTolerance},
+                             {"max_vertices", settings.mostVertices},
                              {"subdivide", settings.subdivision},
                              {"memory", settings.memoryBytes}});
   json["transfer"] = transferJson(options, data);
