@@ -111,6 +111,7 @@ struct CommandLine {
         ->required();
     precomputeCommand = app.add_subcommand("precompute", "Compute what view needs of a scene");
     addPrecomputeOptions(*precomputeCommand, precompute);
+    precomputeCommand->callback([this] { precompute.given = givenOptions(*precomputeCommand); });
     viewCommand =
         app.add_subcommand("view", "Change light and materials by hand, in a window or by frames");
     addViewOptions(*viewCommand, view);

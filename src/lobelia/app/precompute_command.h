@@ -1,27 +1,13 @@
-// `lobelia precompute`: light transport of a scene's geometry, kept in a file for `lobelia view`.
+// `lobelia precompute`: light transport of a scene, kept in a file for `lobelia view`. What methods
+// share; their own parts: precompute_methods.h.
 #pragma once
 
-#include <string>
-
-#include "lobelia/app/render_options.h"
+#include "lobelia/app/precompute_options.h"
 #include "lobelia/base/error.h"
-#include "lobelia/relight/precompute.h"
-
-namespace CLI {
-class App;
-}
 
 namespace lobelia::app {
 
-struct PrecomputeOptions {
-  SceneOptions scene;
-  std::string method, output, stats;
-  std::string light = "environment", adaptive = "on", horizon = "ignore";
-  relight::PrecomputeSettings settings;
-  uint64_t seed = 0;
-};
-
-void addPrecomputeOptions(CLI::App& command, PrecomputeOptions& options);
+// Throws UsageError, InputError, RuntimeError; nothing is written then.
 ExitCode precompute(const PrecomputeOptions& options, const GlobalOptions& global);
 
 }  // namespace lobelia::app

@@ -1,14 +1,15 @@
-// [P002 section 6.1, after Krivanek04]: an edge is halved where the visibility masks of its ends
+// [P002 section 6.1], after [Krivanek04]: an edge is halved where the visibility masks of its ends
 // differ in more than a tolerance of all directions.
 //
 // Deviations:
 //  - Directions behind one of the ends are not compared. The paper's masks have them, and a convex
 //    surface is then split wherever it turns by .9 degrees along an edge, because two hemispheres
-//    so tilted differ in 0.5 % of the sphere: a ball alone in space comes from 1,986 to 110,538
+//    so tilted differ in 0.5 % of the sphere: a ball alone in space comes from 1,986 to 33,282
 //    vertices in three rounds, where the paper says that convex surfaces stay coarse. So it keeps
 //    its 1,986, and the floor under it is divided alike.
 //  - Long edges are halved first, whatever their ends see, because something may stand between.
-//  - Short edges stay whole: where surfaces touch, masks differ at any distance.
+//  - Short edges stay whole, as for visibility cuts: where surfaces touch, masks differ at any
+//    distance.
 //  - Triangles become two, three or four (relight/edge_splitting.h) instead of four.
 #include "lobelia/transfer/mask_subdivision.h"
 
@@ -34,7 +35,7 @@ using relight::SampleMesh;
 using relight::VertexFaces;
 
 // In parts of the scene's diagonal.
-constexpr float kShortest = 1.f / 250, kLongest = 1.f / 8;
+constexpr float kShortest = 1.f / 100, kLongest = 1.f / 8;
 constexpr int kLongRounds = 8;   // at most so many to halve long edges
 constexpr size_t kBatch = 4096;  // edges whose masks are there at a time
 

@@ -11,8 +11,11 @@ namespace lobelia::transfer {
 struct MaskSettings {
   int level = 7;             // grid of the masks' directions
   float tolerance = 0.005f;  // share of the mask's directions that may differ along an edge
-  int rounds = 3;            // how often an edge may be halved
-  size_t mostVertices = 0;   // 0: any number. What needs it most is halved first, with a warning
+  // How often an edge may be halved; of such as are longer than an eighth of the scene, from there
+  // on. 0: the mesh stays as it is.
+  int rounds = 3;
+  // 0: any number. What needs it most is halved first, round by round, with a warning.
+  size_t mostVertices = 0;
   uint64_t memoryBytes = uint64_t{1} << 30;  // for masks; those of more vertices are traced again
 };
 

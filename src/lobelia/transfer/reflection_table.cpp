@@ -17,6 +17,7 @@
 #include "lobelia/transfer/lobe_fit.h"
 #include "lobelia/transfer/lobe_moments.h"
 #include "lobelia/transfer/reflected_lobes.h"
+#include "lobelia/transfer/slice_record.h"
 
 namespace lobelia::transfer {
 namespace {
@@ -82,7 +83,8 @@ void startFit(Vec3f mirror, const LobeMoments& moments, std::span<FitLobe> lobes
     const float t = static_cast<float>(j + 1) / static_cast<float>(lobes.size());
     const Vec3f axis = lerp(mirror, one.axis, t);
     const double kappa = static_cast<double>(one.kappa) * 2 * std::pow(4, 1 - static_cast<int>(j));
-    lobes[j] = {toDouble(normalize(Vec3f(axis.x, 0, axis.z))), std::min(kappa, 8192.0),
+    lobes[j] = {toDouble(normalize(Vec3f(axis.x, 0, axis.z))),
+                std::min(kappa, static_cast<double>(kMostKappa)),
                 1 / static_cast<double>(lobes.size())};
   }
 }

@@ -1,0 +1,125 @@
+// `lobelia precompute --method vmf`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "lobelia/app/load_scene.h"
+#include "lobelia/app/precompute_methods.h"
+#include "lobelia/app/precompute_report.h"
+#include "lobelia/trace/tracer.h"
+
+namespace lobelia::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using transfer::TransferData;
+using transfer::TransferSettings;
+
+TransferSettings settingsOf(const PrecomputeOptions& options, const Scene& scene) {
+  TransferSettings settings = options.vmf;
+  settings.directionLevel = 0;
+  while (10 * (1 << 2 * settings.directionLevel) + 2 < std::stoi(options.directions))
+    ++settings.directionLevel;
+  settings.rayLevel = options.rays == "auto" ? 0 : std::stoi(options.rays);
+  settings.subdivision = options.subdivision;
+  if (options.lobes == "materials")
+    settings.classCount =
+        std::clamp(static_cast<int>(scene.materials.size()), 1, transfer::kMostClasses);
+  settings.workFolder = workFolder(options);
+  return settings;
+}
+
+// How full rows of slices are: records over the slices that there could be.
+double density(const std::vector<transfer::SliceRows>& lobes, size_t vertices, double directions) {
+  size_t records = 0;
+  for (const transfer::SliceRows& rows : lobes) records += rows.recordCount();
+  const double most = static_cast<double>(lobes.size() * vertices) * directions;
+  return ratio(static_cast<double>(records), most);
+}
+
+Json transferJson(const PrecomputeOptions& options, const TransferData& data) {
+  const double directions = std::stod(options.directions);
+  const size_t vertices = data.mesh.vertices.size();
+  size_t lobes = 0;
+  Json byPass = Json::array();
+  for (const transfer::TransferPass& pass : data.passes) {
+    lobes += pass.glossy.size();
+    byPass.push_back(density(pass.glossy, vertices, directions));
+  }
+  const auto records = static_cast<double>(data.recordCount());
+  return {{"directions", std::stoi(options.directions)},
+          {"passes", data.passes.size()},
+          {"classes", data.classCount},
+          {"vertices", vertices},
+          {"lobes", lobes},
+          {"records", data.recordCount()},
+          {"bytes", data.byteCount()},
+          {"density", ratio(records, static_cast<double>(vertices * lobes) * directions)},
+          {"density_by_pass", std::move(byPass)}};
+}
+
+Json statisticsJson(const PrecomputeOptions& options, const TransferSettings& settings,
+                    const Scene& scene, const TransferData& data, const Context& context) {
+  const Statistics& s = context.statistics;
+  Json json = contractStatistics(options, scene, context);
+  json["lights"]["model"] = "environment";
+  json["precompute"].update({{"directions", std::stoi(options.directions)},
+                             {"bounces", settings.bounces},
+                             {"lobes", options.lobes},
+                             {"rays", options.rays},
+                             {"mask_level", settings.maskLevel},
+                             {"mask_tolerance", settings.maskTolerance},
+                             {"subdivide", settings.subdivision},
+                             {"memory", settings.memoryBytes}});
+  json["transfer"] = transferJson(options, data);
+  for (const char* stage : {"masks", "trace", "direct", "bounce"})
+    json["seconds"][stage] = s.seconds(stage);
+  Json& counts = json["counts"];
+  for (const char* name : {"vertices", "vertices_added", "mask_rays", "transfer_rays", "hits",
+                           "slices", "slices_unoccluded", "records", "blocks_resumed", "nonfinite"})
+    counts[name] = s.count(name);
+  counts["shadow_rays"] = s.count("mask_rays") + s.count("transfer_rays");
+  json["rays_per_second"] =
+      ratio(static_cast<double>(s.count("transfer_rays")), s.seconds("trace"));
+  return json;
+}
+
+std::string summary(const PrecomputeOptions& options, const TransferData& data,
+                    const Context& context) {
+  const Statistics& s = context.statistics;
+  const double masks = s.seconds("masks");
+  return fmt::format(
+      "{} vertices ({} of them added), {} passes, {:.4g} million records, {:.1f} MB in memory; "
+      "{:.4g} million rays; {:.1f} MB in {:.1f} s, {:.1f} s of them for masks",
+      data.mesh.vertices.size(), s.count("vertices_added"), data.passes.size(),
+      static_cast<double>(data.recordCount()) * 1e-6, static_cast<double>(data.byteCount()) * 1e-6,
+      static_cast<double>(s.count("transfer_rays")) * 1e-6,
+      static_cast<double>(outputBytes(options)) * 1e-6, s.seconds("total"), masks);
+}
+
+}  // namespace
+
+std::string workFolder(const PrecomputeOptions& options) {
+  if (options.work == "none") return {};
+  return options.work.empty() ? options.output + ".work" : options.work;
+}
+
+void precomputeVmf(const PrecomputeOptions& options, Context& context) {
+  const int64_t start = nanosecondsNow();
+  const Scene scene = loadScene(options.scene, context);
+  const Tracer tracer(scene, context);
+  const TransferSettings settings = settingsOf(options, scene);
+  const TransferData data = transfer::precomputeTransfer(tracer, settings, context);
+  {
+    const StageTimer timer(context, "save");
+    transfer::save(data, scene, options.output);
+  }
+  context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);
+  context.info(summary(options, data, context));
+  if (const uint64_t bad = context.statistics.count("nonfinite"); bad > 0)
+    context.warning(fmt::format("{} values are not finite; they are left out", bad));
+  writeStatistics(options, statisticsJson(options, settings, scene, data, context));
+}
+
+}  // namespace lobelia::app
