@@ -1,6 +1,6 @@
-// The paper's table of sparse rows [P002 section 6.2; LD08, LH06]: all rows lie in one array of
-// slots, each displaced so that its records fall where others have holes: A[i][j] = H[O[i] + j].
-// Kept to measure SliceRows against it.
+// The paper's table of sparse rows [P002 section 6.2; Lagae08, Lefebvre06]: all rows lie in one
+// array of slots, each displaced so that its records fall where others have holes: A[i][j] = H[O[i]
+// + j]. Kept to measure SliceRows against it.
 //
 // Deviations: each slot says whose record it has, because an empty entry may find that of another
 // row. A row goes to the first place that fits, as there; but places that have refused many rows
