@@ -13,7 +13,8 @@ void addRows(const SliceRows& rows, const std::string& name, store::Writer* writ
 // Throws InputError, which names the file, unless there are so many rows of so many columns.
 SliceRows readRows(const store::Reader& reader, const std::string& file, const std::string& name,
                    size_t rows, size_t columns);
-// The same of a pass: "NAME-glossy0", ..., "NAME-diffuse". classes: of glossy lobes.
+// The same of a pass: its rows are "NAMEg0", "NAMEg1"... by class, its diffuse lobes "NAMEd".
+// classes: of glossy lobes.
 void addPass(const TransferPass& pass, const std::string& name, store::Writer* writer);
 TransferPass readPass(const store::Reader& reader, const std::string& file, const std::string& name,
                       size_t classes, size_t rows, size_t columns);

@@ -81,7 +81,11 @@ TransferData load(const std::string& file, const Scene& scene) {
   for (uint32_t j = 0; j < head.passCount; ++j)
     data.passes.push_back(readPass(reader, file, fmt::format("p{}", j),
                                    j == 0 ? 1 : head.classCount + 1, rows, columns));
-  if (head.hasReflection != 0) data.reflection = readRows(reader, file, "own", rows, columns);
+  // Whoever looks a vertex up finds a row, also where somebody has taken them out of the file.
+  data.reflection =
+      head.hasReflection != 0
+          ? readRows(reader, file, "own", rows, columns)
+          : SliceRows(columns, std::vector<uint64_t>(rows * ((columns + 63) / 64)), {});
   return data;
 }
 

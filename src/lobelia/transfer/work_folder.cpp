@@ -5,12 +5,35 @@
 #include <filesystem>
 
 #include "lobelia/base/error.h"
+#include "lobelia/base/file.h"
 
 namespace lobelia::transfer {
 namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kSuffix = ".block";
+constexpr const char* kKind = "transfer-block";
+constexpr uint32_t kVersion = 1;
+
+[[noreturn]] void refuse(const std::string& file) {
+  throw InputError({file}, "this is no block of a precomputation; give --work a folder of its own");
+}
+
+// False: the block is damaged, which find() says. Throws InputError where it is of another hash, or
+// something else that only has a block's name, and would be overwritten.
+bool isOf(const std::string& file, const std::string& folder, uint64_t hash) {
+  if (!fs::is_regular_file(file) ||
+      (!readFileStart(file, 1).empty() && store::kindOf(file) != kKind))
+    refuse(file);
+  try {
+    if (store::Reader(file, kKind, kVersion).sceneHash() == hash) return true;
+  } catch (const InputError&) {
+    return false;
+  }
+  throw InputError({folder},
+                   "what is done there is of another scene or of other settings; delete the "
+                   "folder, or give --work another");
+}
 
 }  // namespace
 
@@ -22,30 +45,22 @@ WorkFolder::WorkFolder(const std::string& path, uint64_t hash, Context& context)
     throw RuntimeError(fmt::format("the work folder {} cannot be made: {}", path,
                                    error ? error.message() : "something else has that name"));
   size_t found = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
+  std::vector<fs::path> leftovers;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
     const std::string file = entry.path().string();
-    const std::string name = entry.path().filename().string();
-    if (name.find(std::string(kSuffix) + ".tmp") != std::string::npos) {
-      fs::remove(entry.path(), error);  // what a killed run was writing
-      continue;
-    }
-    if (entry.path().extension() != kSuffix)
-      throw InputError({file},
-                       "this is no block of a precomputation; give --work a folder of its own");
-    try {
-      if (store::Reader(file, kKind, kVersion).sceneHash() == hash) {
-        ++found;
-        continue;
-      }
-    } catch (const InputError&) {
-      continue;  // find() warns
-    }
-    throw InputError({path},
-                     "what is done there is of another scene or of other settings; delete the "
-                     "folder, or give --work another");
+    if (entry.path().filename().string().find(std::string(kSuffix) + ".tmp") != std::string::npos)
+      leftovers.push_back(entry.path());
+    else if (entry.path().extension() != kSuffix)
+      refuse(file);
+    else if (isOf(file, path, hash))
+      ++found;
   }
+  // Of a killed run. Only now: before, the folder might have been somebody else's.
+  for (const fs::path& file : leftovers) fs::remove(file, error);
   if (found > 0) context.info(fmt::format("going on from {}: {} blocks are done", path, found));
 }
+
+store::Writer WorkFolder::writer() const { return {kKind, kVersion, hash_}; }
 
 std::string WorkFolder::fileOf(const std::string& name) const {
   return (fs::path(path_) / (name + kSuffix)).string();

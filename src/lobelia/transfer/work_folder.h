@@ -19,15 +19,13 @@ class WorkFolder {
 
   // From any thread, for different names. A block that is damaged is none, with a warning.
   std::optional<store::Reader> find(const std::string& name) const;
-  store::Writer writer() const { return {kKind, kVersion, hash_}; }
+  store::Writer writer() const;
   void put(const std::string& name, const store::Writer& block) const;
   std::string fileOf(const std::string& name) const;
   // Deletes the blocks, and the folder if nothing else is in it.
   void remove();
 
  private:
-  static constexpr const char* kKind = "transfer-block";
-  static constexpr uint32_t kVersion = 1;
   std::string path_;
   uint64_t hash_;
   Context& context_;
