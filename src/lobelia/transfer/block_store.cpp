@@ -16,9 +16,9 @@ std::span<const T> spanOf(const std::vector<T>& values) {
 
 // Of all that blocks depend on. The number of bounces is not of it: a run with more of them goes on
 // where one with fewer has stopped.
-uint64_t hashOf(const TransferSettings& s, int rayLevel, const Scene& scene) {
+uint64_t hashOf(const TransferSettings& s, const Scene& scene) {
   uint64_t hash = transferHash(scene);
-  for (const int v : {s.directionLevel, rayLevel, s.maskLevel, s.subdivision, s.classCount,
+  for (const int v : {s.directionLevel, s.rayLevel, s.maskLevel, s.subdivision, s.classCount,
                       static_cast<int>(s.mostVertices)})
     hash = hashCombine(hash, static_cast<uint64_t>(v));
   return hashCombine(hash, static_cast<uint64_t>(std::lround(double{s.maskTolerance} * 1e9)));
@@ -29,11 +29,10 @@ std::string raysName(size_t block) { return fmt::format("rays-{:05}", block); }
 
 }  // namespace
 
-BlockStore::BlockStore(const TransferSettings& settings, int rayLevel, const Scene& scene,
-                       Context& context)
+BlockStore::BlockStore(const TransferSettings& settings, const Scene& scene, Context& context)
     : classCount_(settings.classCount) {
   if (!settings.workFolder.empty())
-    folder_.emplace(settings.workFolder, hashOf(settings, rayLevel, scene), context);
+    folder_.emplace(settings.workFolder, hashOf(settings, scene), context);
 }
 
 std::optional<relight::SampleMesh> BlockStore::mesh(const Scene& scene) const {

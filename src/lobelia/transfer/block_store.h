@@ -11,8 +11,8 @@ namespace lobelia::transfer {
 
 class BlockStore {
  public:
-  // rayLevel: of the grid that is used. Throws as WorkFolder does.
-  BlockStore(const TransferSettings& settings, int rayLevel, const Scene& scene, Context& context);
+  // Throws as WorkFolder does.
+  BlockStore(const TransferSettings& settings, const Scene& scene, Context& context);
 
   std::optional<relight::SampleMesh> mesh(const Scene& scene) const;
   void putMesh(const relight::SampleMesh& mesh);

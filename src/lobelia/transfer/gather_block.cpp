@@ -41,22 +41,46 @@ struct LobeTotal {
 // Weights of directions in a lobe, with their memory.
 class LobeWeights {
  public:
-  explicit LobeWeights(const DirectionChunks& directions) : directions_(directions) {}
+  void setDirections(const DirectionChunks& directions) { directions_ = &directions; }
   std::span<const uint32_t> find(const Bsdf& part, Vec3f wo) {
-    findChunks(directions_, part, wo, &chunks_);
+    findChunks(*directions_, part, wo, &chunks_);
     return chunks_;
   }
   // kChunk weights for each of the chunks; good until the next call.
   const float* evaluate(const Bsdf& part, Vec3f wo, std::span<const uint32_t> chunks) {
     if (values_.size() < chunks.size() * kLanes) values_.resize(chunks.size() * kLanes);
-    lobeWeights(directions_, part, wo, chunks, values_.data());
+    lobeWeights(*directions_, part, wo, chunks, values_.data());
     return values_.data();
   }
 
  private:
-  const DirectionChunks& directions_;
+  const DirectionChunks* directions_ = nullptr;
   std::vector<uint32_t> chunks_;
   relight::AlignedFloats values_;
+};
+
+// Sums over the lanes of chunks, lane by lane, which compilers turn into registers.
+struct LaneSums {
+  using Lanes = std::array<float, kLanes>;
+  Lanes all{}, seen{}, x{}, y{}, z{};
+
+  void add(const RaySphere& sphere, uint32_t chunk, const float* weights, uint32_t free) {
+    Lanes visible;
+    for (size_t l = 0; l < kLanes; ++l) visible[l] = static_cast<float>(free >> l & 1);
+    const size_t at = chunk * kLanes;
+    const float *solid = &sphere.solidAngle[at], *dx = &sphere.chunks.x[at],
+                *dy = &sphere.chunks.y[at], *dz = &sphere.chunks.z[at];
+    for (size_t l = 0; l < kLanes; ++l) {
+      const float weight = weights[l] * solid[l], v = weight * visible[l];
+      all[l] += weight, seen[l] += v;
+      x[l] += v * dx[l], y[l] += v * dy[l], z[l] += v * dz[l];
+    }
+  }
+  static float total(const Lanes& lanes) {
+    float sum = 0;
+    for (const float v : lanes) sum += v;
+    return sum;
+  }
 };
 
 // A vertex and the parts of its Bsdf; for one side of it at a time.
@@ -87,19 +111,18 @@ class Vertex {
 class DirectPass {
  public:
   DirectPass(const GatherInput& input, BlockRays* rays, BlockPass* pass, BlockCounts* counts)
-      : input_(input),
-        out_(*rays),
-        pass_(*pass),
-        counts_(*counts),
-        tracer_(input.tracer, input.rays.grid, input.data.mesh.mesh.firstTriangle()),
-        weights_(input.rays.chunks) {
+      : input_(input), out_(*rays), pass_(*pass), counts_(*counts) {
+    for (const RaySphere& sphere : input.rays)
+      tracers_.emplace_back(input.tracer, sphere.grid, input.data.mesh.mesh.firstTriangle());
     pass_.glossy.assign(1, SliceRows(input.directions.count()));
     pass_.reflection = SliceRows(input.directions.count());
   }
 
   void add(size_t index) {
     const int64_t start = nanosecondsNow();
-    tracer_.trace(input_.faces.at(index), &rays_);
+    sphere_ = &input_.rays[input_.raysOf[index]];
+    weights_.setDirections(sphere_->chunks);
+    tracers_[input_.raysOf[index]].trace(input_.faces.at(index), &rays_);
     const int64_t traced = nanosecondsNow();
     store();
     const Vertex vertex(input_, index);
@@ -108,7 +131,11 @@ class DirectPass {
     diffuse(vertex);
     counts_.traceNs += traced - start, counts_.gatherNs += nanosecondsNow() - traced;
   }
-  uint64_t rays() const { return tracer_.rays(); }
+  uint64_t rays() const {
+    uint64_t sum = 0;
+    for (const RayTracer& tracer : tracers_) sum += tracer.rays();
+    return sum;
+  }
 
  private:
   void store() {
@@ -120,7 +147,7 @@ class DirectPass {
 
   // Chunks with a ray above the horizon, of either side, that is not free.
   void findObstructed(Vec3f n) {
-    const RaySphere& sphere = input_.rays;
+    const RaySphere& sphere = *sphere_;
     for (auto& o : obstructed_) o.assign(sphere.chunks.chunkCount(), 0);
     for (size_t c = 0; c < sphere.chunks.chunkCount(); ++c) {
       const uint32_t free = lanesOf(rays_.free, c);
@@ -163,19 +190,11 @@ class DirectPass {
       return;
     }
     const float* w = weights_.evaluate(part, wo, chunks);
-    float all = 0, seen = 0;
-    Vec3f sum{};
-    for (size_t j = 0; j < chunks.size(); ++j, w += kLanes) {
-      const uint32_t free = lanesOf(rays_.free, chunks[j]);
-      for (size_t l = 0; l < kLanes; ++l) {
-        const size_t i = chunks[j] * kLanes + l;
-        const float weight = w[l] * input_.rays.solidAngle[i];
-        const float visible = (free >> l & 1) != 0 ? weight : 0;
-        all += weight, seen += visible;
-        sum += Vec3f(input_.rays.chunks.x[i], input_.rays.chunks.y[i], input_.rays.chunks.z[i]) *
-               visible;
-      }
-    }
+    LaneSums sums;
+    for (size_t j = 0; j < chunks.size(); ++j, w += kLanes)
+      sums.add(*sphere_, chunks[j], w, lanesOf(rays_.free, chunks[j]));
+    const float all = sums.total(sums.all), seen = sums.total(sums.seen);
+    const Vec3f sum{sums.total(sums.x), sums.total(sums.y), sums.total(sums.z)};
     if (!std::isfinite(all)) {
       ++counts_.nonFinite;
       return;
@@ -202,10 +221,10 @@ class DirectPass {
         const uint32_t free = lanesOf(rays_.free, chunks[j]);
         for (size_t l = 0; l < kLanes; ++l) {
           const size_t i = chunks[j] * kLanes + l;
-          const float weight = w[l] * input_.rays.solidAngle[i];
+          const float weight = w[l] * sphere_->solidAngle[i];
           all += weight;
           if ((free >> l & 1) == 0 || weight <= 0) continue;
-          const Vec3f d{input_.rays.chunks.x[i], input_.rays.chunks.y[i], input_.rays.chunks.z[i]};
+          const Vec3f d{sphere_->chunks.x[i], sphere_->chunks.y[i], sphere_->chunks.z[i]};
           octants[octantOf(d)].add(weight, {Rgb(1), d});
         }
       }
@@ -222,7 +241,8 @@ class DirectPass {
   BlockRays& out_;
   BlockPass& pass_;
   BlockCounts& counts_;
-  RayTracer tracer_;
+  std::vector<RayTracer> tracers_;     // by sphere
+  const RaySphere* sphere_ = nullptr;  // of the vertex under way
   LobeWeights weights_;
   VertexRays rays_;
   std::array<std::vector<uint8_t>, 2> obstructed_;  // by side and chunk
@@ -235,6 +255,7 @@ struct Incoming {
   LobeMoment narrow, broad;  // of paths with glossy reflections alone, and of others
   int narrowClass = 0;
 };
+static_assert(sizeof(LobeMoment) == 6 * sizeof(float));
 
 class BouncePass {
  public:
@@ -244,16 +265,19 @@ class BouncePass {
         before_(pass - 1),
         classes_(static_cast<size_t>(input.data.classCount)),
         out_(*out),
-        counts_(*counts),
-        weights_(input.rays.chunks) {
+        counts_(*counts) {
     out_.glossy.assign(classes_ + 1, SliceRows(input.directions.count()));
     columns_.resize(classes_ + 1), records_.resize(classes_ + 1);
   }
 
+  // Of one vertex after the other.
   void add(const BlockRays& rays, size_t v) {
     const int64_t start = nanosecondsNow();
-    const size_t words = rays.blocked.size() / std::max<size_t>(rays.count(), 1);
-    blocked_ = std::span(rays.blocked).subspan(v * words, words);
+    sphere_ = &input_.rays[input_.raysOf[rays.first + v]];
+    weights_.setDirections(sphere_->chunks);
+    const size_t words = (sphere_->grid.count() + 63) / 64;
+    blocked_ = std::span(rays.blocked).subspan(word_, words);
+    word_ += words;
     gather(std::span(rays.hits).subspan(rays.hitStart[v], rays.hitStart[v + 1] - rays.hitStart[v]));
     const Vertex vertex(input_, rays.first + v);
     for (auto& c : columns_) c.clear();
@@ -268,10 +292,10 @@ class BouncePass {
 
  private:
   void gather(std::span<const RayHit> hits) {
-    firstHit_.resize(input_.rays.chunks.chunkCount());
+    firstHit_.resize(sphere_->chunks.chunkCount());
     incoming_.clear();
     any_ = false;
-    for (size_t c = 0; c < input_.rays.chunks.chunkCount(); ++c) {
+    for (size_t c = 0; c < sphere_->chunks.chunkCount(); ++c) {
       firstHit_[c] = static_cast<uint32_t>(incoming_.size());
       for (uint32_t lanes = lanesOf(blocked_, c); lanes != 0; lanes &= lanes - 1) {
         const size_t ray = c * kLanes + static_cast<size_t>(std::countr_zero(lanes));
@@ -288,11 +312,11 @@ class BouncePass {
     const uint32_t triangle = hit.triangle - input_.data.mesh.mesh.firstTriangle()[instance];
     const float b1 = static_cast<float>(hit.b1) / 65535, b2 = static_cast<float>(hit.b2) / 65535;
     const auto around = input_.data.mesh.mesh.at(instance, triangle, b1, b2);
-    const Vec3f wo = -input_.rays.grid.directions()[ray];
+    const Vec3f wo = -sphere_->grid.directions()[ray];
     const Reflection own = ownOf(material, around, {0, b1, b2, instance, triangle}, wo);
     if (luminance(own.glossy) > 0) {
       std::array<LobeMoment, kMostClasses + 1> byClass{};
-      const PlaceView view = input_.lookup.view(around, own, wo, input_.rays.back[ray]);
+      const PlaceView view = input_.lookup.view(around, own, wo, sphere_->back[ray]);
       const auto& glossy = input_.data.passes[before_].glossy;
       input_.lookup.glossy(view, before_, {byClass.data(), glossy.size()});
       for (size_t c = 0; c < glossy.size(); ++c)
@@ -348,7 +372,7 @@ class BouncePass {
       const Incoming* in = &incoming_[firstHit_[chunks_[j]]];
       for (uint32_t lanes = lanesOf(blocked_, chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
         const auto l = static_cast<size_t>(std::countr_zero(lanes));
-        const float weight = w[l] * input_.rays.solidAngle[chunks_[j] * kLanes + l];
+        const float weight = w[l] * sphere_->solidAngle[chunks_[j] * kLanes + l];
         totals[static_cast<size_t>(in->narrowClass)].add(weight, in->narrow);
         totals[classes_].add(weight, in->broad);
       }
@@ -378,7 +402,7 @@ class BouncePass {
         const Incoming* in = &incoming_[firstHit_[chunks_[j]]];
         for (uint32_t lanes = lanesOf(blocked_, chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
           const auto l = static_cast<size_t>(std::countr_zero(lanes));
-          const float weight = w[l] * input_.rays.solidAngle[chunks_[j] * kLanes + l];
+          const float weight = w[l] * sphere_->solidAngle[chunks_[j] * kLanes + l];
           octants[octantOf(in->narrow.first)].add(weight, in->narrow);
           octants[octantOf(in->broad.first)].add(weight, in->broad);
         }
@@ -400,6 +424,8 @@ class BouncePass {
   BlockPass& out_;
   BlockCounts& counts_;
   LobeWeights weights_;
+  const RaySphere* sphere_ = nullptr;  // of the vertex under way
+  size_t word_ = 0;                    // where the next vertex's bits begin
   std::span<const uint64_t> blocked_;
   std::vector<uint32_t> firstHit_;  // by chunk: its first among incoming_
   std::vector<Incoming> incoming_;  // by hit

@@ -22,7 +22,8 @@ namespace lobelia::transfer {
 // What all blocks share.
 struct GatherInput {
   const Tracer& tracer;
-  const RaySphere& rays;
+  std::span<const RaySphere> rays;  // of some levels
+  std::span<const uint8_t> raysOf;  // by vertex: which of them
   const GeodesicGrid& directions;
   const ReflectionTables& tables;
   const TransferData& data;  // mesh; passes, of which the last is being made

@@ -11,7 +11,7 @@
 namespace lobelia::transfer {
 namespace {
 
-constexpr float kShare = 1e-4f;  // of a lobe's value in the mirror direction
+constexpr float kShare = 1e-3f;  // of a lobe's value in the mirror direction
 
 bool isActiveFor(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo) {
   return isActive(lobe, dot(wo, bsdf.frameOf(lobe).n));

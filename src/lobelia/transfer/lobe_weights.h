@@ -24,7 +24,7 @@ struct DirectionChunks {
   relight::AlignedFloats axisX, axisY, axisZ, cosine, sine;
 };
 
-// The chunks, ascending, that may hold directions in which a lobe of `part` has more than 1e-4 of
+// The chunks, ascending, that may hold directions in which a lobe of `part` has more than 1e-3 of
 // its value in the mirror direction, and are not all below its horizon. part: diffusePart() or
 // glossyPart(). What was in `chunks` is replaced.
 void findChunks(const DirectionChunks& directions, const Bsdf& part, Vec3f wo,

@@ -20,12 +20,23 @@ namespace {
 constexpr size_t kBlock = 256;      // vertices
 constexpr size_t kAllowed = 20000;  // vertices that may be added to any scene
 
-// So that a lobe's solid angle, 2 pi / kappa, has 37 rays or more; a third of the paper's, but
-// evenly spread. Sharper lobes than kappa 550 have fewer.
+// Grids of rays, as fine as a lobe needs: its solid angle, about 4 pi / kappa, has 38 rays or more,
+// evenly spread, where the paper has 144 at random. Lobes sharper than kappa 1,078 have fewer.
+constexpr int kCoarsestRays = 5, kFinestRays = 6;
 int rayLevelFor(float kappa) {
-  int level = 5;
-  while (level < 6 && 10 * (size_t{1} << 2 * level) < static_cast<size_t>(75 * kappa)) ++level;
+  int level = kCoarsestRays;
+  while (level < kFinestRays && 10 * (1 << 2 * level) < static_cast<int>(38 * kappa)) ++level;
   return level;
+}
+
+std::vector<RaySphere> raySpheres(int level, const GeodesicGrid& directions) {
+  std::vector<RaySphere> spheres;
+  if (level > 0) {
+    spheres.emplace_back(level, directions);
+  } else {
+    for (int l = kCoarsestRays; l <= kFinestRays; ++l) spheres.emplace_back(l, directions);
+  }
+  return spheres;
 }
 
 uint64_t budgetOf(const TransferSettings& settings) {
@@ -57,9 +68,8 @@ class Precomputation {
         budget_(budgetOf(settings)),
         tables_(tracer.scene()),
         directions_(settings.directionLevel),
-        rays_(settings.rayLevel > 0 ? settings.rayLevel : rayLevelFor(tables_.sharpest()),
-              directions_),
-        store_(settings, rays_.grid.level(), tracer.scene(), context) {}
+        rays_(raySpheres(settings.rayLevel, directions_)),
+        store_(settings, tracer.scene(), context) {}
 
   TransferData run() {
     makeMesh();
@@ -70,7 +80,9 @@ class Precomputation {
     data_.directionLevel = settings_.directionLevel;
     data_.classCount = settings_.classCount;
     const SliceLookup lookup(tracer_.scene(), data_, tables_);
-    GatherInput input{tracer_, rays_, directions_, tables_, data_, lookup, faces, instanceOf, {}};
+    const std::vector<uint8_t> raysOf = raysOfVertices();
+    GatherInput input{tracer_, rays_,  raysOf, directions_, tables_,
+                      data_,   lookup, faces,  instanceOf,  {}};
     blocks_ = (data_.mesh.vertices.size() + kBlock - 1) / kBlock;
     store_.setSize(blocks_, directions_.count());
     direct(input);
@@ -103,6 +115,16 @@ class Precomputation {
     }
     data_.mesh.vertices = transferVertices(tracer_.scene(), data_.mesh.mesh);
     context_.statistics.addCount("vertices", data_.mesh.vertices.size());
+  }
+
+  std::vector<uint8_t> raysOfVertices() const {
+    std::vector<uint8_t> out;
+    for (const TransferVertex& v : data_.mesh.vertices) {
+      const float kappa = tables_.sharpest(tracer_.scene().instances[v.instance].material);
+      out.push_back(rays_.size() == 1 ? uint8_t{0}
+                                      : static_cast<uint8_t>(rayLevelFor(kappa) - kCoarsestRays));
+    }
+    return out;
   }
 
   size_t mostVertices(size_t before) const {
@@ -233,7 +255,7 @@ class Precomputation {
   const uint64_t budget_;
   const ReflectionTables tables_;
   const GeodesicGrid directions_;
-  const RaySphere rays_;
+  const std::vector<RaySphere> rays_;
   BlockStore store_;
   TransferData data_;
   size_t blocks_ = 0;

@@ -53,6 +53,7 @@ class ReflectionTables {
   // degrees from the normal; of textured materials where some triangles have their middles. 0:
   // there is none.
   float sharpest() const;
+  float sharpest(MaterialHandle material) const;  // of one; that of all where it has no table
   bool anyDiffuse() const;
 
  private:

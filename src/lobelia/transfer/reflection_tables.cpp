@@ -120,6 +120,14 @@ bool ReflectionTables::summary(MaterialHandle material, Vec3f n, Vec3f wo, Refle
 
 float ReflectionTables::sharpest() const { return impl_->extremes.sharpest; }
 
+float ReflectionTables::sharpest(MaterialHandle material) const {
+  if (!has(material)) return sharpest();
+  float most = 0;
+  for (const ReflectionTable& table : *impl_->tables[material.index])
+    most = std::max(most, table.sharpest());
+  return most;
+}
+
 bool ReflectionTables::anyDiffuse() const { return impl_->extremes.anyDiffuse; }
 
 }  // namespace lobelia::transfer
