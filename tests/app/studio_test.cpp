@@ -129,6 +129,45 @@ TEST_F(StudioTest, ShowsWhatTheCommandLineRenders) {
   EXPECT_EQ(studio->newestPicture()->film.layers.at("").values, first->film.layers.at("").values);
 }
 
+// Light changes at once, materials not at all, which is said once.
+TEST_F(StudioTest, TransferShowsTheLightOnItsOwnMaterials) {
+  const test::ProgramResult r = runProgram(
+      "precompute " + file("scene.xml") +
+      " --method vmf --directions 162 --rays 4 --subdivide 0 --quiet -o " + file("transfer"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  StudioSettings settings;
+  settings.scene.scene = file("scene.xml");
+  settings.data = {file("transfer")};
+  Context context;
+  Studio studio(settings, context);
+  EXPECT_FALSE(studio.hasCuts());
+  EXPECT_EQ(studio.transferPasses(), 3);
+  EXPECT_EQ(studio.view().method, ViewMethod::transfer);
+  studio.setView(sized(studio.view()));
+  const auto values = [&] {
+    EXPECT_TRUE(settle(studio));
+    EXPECT_EQ(studio.newestPicture()->method, "transfer");
+    return studio.newestPicture()->film.layers.at("").values;
+  };
+  const std::vector<float> first = values();
+  paintIn(studio, Rgb(0.9f, 0.1f, 0.1f));
+  EXPECT_EQ(values(), first);
+  const std::string said = "materials as they were";
+  EXPECT_NE(this->said(studio).find(said), std::string::npos);
+  studio.edit("dim", [](Design& d) { d.emitters[0].radiance.value *= 0.5f; });
+  const std::vector<float> dim = values();
+  ASSERT_EQ(dim.size(), first.size());
+  for (size_t i = 0; i < dim.size(); ++i) EXPECT_NEAR(dim[i], 0.5f * first[i], 1e-3f * first[i]);
+  EXPECT_EQ(this->said(studio).find(said), std::string::npos) << "twice";
+  ViewState view = studio.view();
+  view.bounce = 1;
+  studio.setView(view);
+  const std::vector<float> bounced = values();
+  EXPECT_EQ(bounced[0], 0) << "the sky is direct light";
+  EXPECT_NE(bounced, dim);
+  EXPECT_EQ(app::depthOf(view), 4) << "of the truth beside it";
+}
+
 // The floor's corners see the whole of an even sky, but for a block: pi times its radiance.
 TEST_F(StudioTest, IlluminanceIsThatOfTheSky) {
   const auto studio = open(true);

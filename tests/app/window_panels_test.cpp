@@ -142,9 +142,11 @@ TEST_F(WindowPanels, DroppedFilesThatAreNothingSaySo) {
   EXPECT_FALSE(studio->history().canUndo());
 }
 
-TEST_F(WindowPanels, CutsWithoutDataSayWhatTheyWant) {
+TEST_F(WindowPanels, MethodsWithoutTheirDataSayWhatTheyWant) {
   play("click method\nclick cuts\nexpect precompute\n");
   EXPECT_NE(ui->state().view.method, app::ViewMethod::cuts);
+  play("click method\nclick transfer\nexpect \"method vmf\"\n");
+  EXPECT_NE(ui->state().view.method, app::ViewMethod::transfer);
 }
 
 TEST_F(WindowPanels, ADesignIsSavedAndComesBack) {

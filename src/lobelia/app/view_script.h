@@ -15,7 +15,7 @@
 //   light remove NAME                    one that was added
 //   undo, redo
 //   save FILE                            the design
-//   method NAME [PASSES]                 cuts, or how many passes a frame has
+//   method NAME [PASSES]                 cuts, transfer, or how many passes a frame has
 //   truth N                              so many passes by path tracing, for errors and splits
 //   false-colour KIND [LEAST MOST]       of screenshots: luminance...; off
 //   split SHARE                          of screenshots: the truth right of it; off

@@ -65,14 +65,20 @@ const std::map<std::string, CommandTexts>& texts() {
         {{"FOLDER/scene.xml", "The scene"}},
         {{"lobelia convert scene.glb -o scene", "Convert glTF to Mitsuba XML"}}}},
       {"precompute",
-       {"Computes what is visible from the vertices of a scene and writes it to a file, from which "
-        "pictures under other light, with other materials and from other views come at once.\n\n"
-        "The file belongs to the scene's shapes: materials, lights and cameras may change, "
-        "geometry may not.",
-        {{"DATA", "Visibility cuts of all vertices, with the light samples and the tree over them"},
+       {"Computes what is visible from the vertices of a scene (--method cuts), or how light from "
+        "infinity comes to the eye over its glossy surfaces (--method vmf), and writes it to a "
+        "file, from which pictures under other light and from other views come at once.\n\n"
+        "The file belongs to the scene's shapes, and, of vmf, to its materials; lights and cameras "
+        "may change, with cuts materials, too.",
+        {{"DATA",
+          "cuts: visibility cuts of all vertices, with the light samples and the tree over them; "
+          "vmf: lobes of transfer"},
+         {"DATA.work", "vmf: a folder of what is done so far, until all is"},
          {"*.json", "Statistics"}},
         {{"lobelia precompute sculpture.xml --method cuts -o sculpture.cuts",
           "For light from an environment"},
+         {"lobelia precompute teapot --method vmf --bounces 3 -o teapot.vmf",
+          "For glossy reflections of light from an environment"},
          {"lobelia precompute room --method cuts --light surfaces -o room.cuts",
           "For one bounce of light of lamps in a room"}}}},
       {"view",
@@ -83,9 +89,11 @@ const std::map<std::string, CommandTexts>& texts() {
         "lamps in the scene with one bounce of it, each by data of its own. Light, materials and "
         "camera may be other ones than before; the geometry may not. Light from infinity does not "
         "come through materials that transmit; light of lamps does, straight, and what is behind "
-        "smooth ones is seen. In the window, and in scripts, the methods of `render` "
+        "smooth ones is seen. Data of --method vmf show light from infinity with its reflections, "
+        "on the materials that they were made with. In the window, and in scripts, the methods of "
+        "`render` "
         "draw all light, pass by pass.",
-        {{"DATA", "Visibility cuts of the scene's vertices"},
+        {{"DATA", "Visibility cuts of the scene's vertices, or their transfer"},
          {"*.exr", "Scene-linear RGB (sRGB primaries, 32-bit float), and metadata"},
          {"*.png", "Tone-mapped by Reinhard's global operator, sRGB"}},
         {{"lobelia view machine --data machine.cuts", "The window"},
@@ -96,6 +104,8 @@ const std::map<std::string, CommandTexts>& texts() {
          {"lobelia view scene.xml --data scene.cuts --headless --frames 36 --rotate-step 10 -o "
           "turn%02d.exr",
           "The environment turns once around the scene"},
+         {"lobelia view teapot --data teapot.vmf --headless --bounce 1 -o once.png",
+          "Of transfer, the light that was reflected once before"},
          {"lobelia view scene.xml --data scene.cuts --headless --script edits.txt -o %04d.png",
           "Frames, edits and designs that a script says"}}}},
       {"relight",
