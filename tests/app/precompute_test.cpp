@@ -73,7 +73,6 @@ TEST(PrecomputeCommand, WrongUsageIsTwo) {
   const std::string out = " -o " + (folder / "a.cuts");
   expectFailure("precompute cornell --method cuts", 2, "--output");
   expectFailure("precompute cornell" + out, 2, "--method");
-  expectFailure("precompute cornell --method vmf" + out, 2, "not built yet");
   expectFailure("precompute cornell --method cutz" + out, 2, "did you mean 'cuts'");
   expectFailure(kCornell + "--samples 1000" + out, 2, "power of two");
   expectFailure(kCornell + "--samples 65536" + out, 2, "--samples");

@@ -15,8 +15,9 @@ namespace {
 
 constexpr const char* kOfCuts[] = {"--light",    "--samples",  "--sigma",   "--max-cut", "--beta",
                                    "--clusters", "--adaptive", "--horizon", "--seed"};
-constexpr const char* kOfVmf[] = {"--directions", "--bounces",        "--lobes",  "--rays",
-                                  "--mask-level", "--mask-tolerance", "--memory", "--work"};
+constexpr const char* kOfVmf[] = {"--directions",   "--bounces",    "--lobes",
+                                  "--rays",         "--mask-level", "--mask-tolerance",
+                                  "--max-vertices", "--memory",     "--work"};
 
 CLI::Validator powerOfTwo(uint64_t least, uint64_t most) {
   return CLI::Validator(
@@ -118,6 +119,12 @@ void addVmfOptions(CLI::App& c, PrecomputeOptions& o) {
                "vmf: share of these directions whose visibility may differ along an edge")
       ->type_name("X")
       ->check(finiteNumber(0, 1))
+      ->capture_default_str();
+  c.add_option("--max-vertices", s.mostVertices,
+               "vmf: vertices after subdivision, at most, edges that need it most first; 0: twice "
+               "the scene's, or 20,000 more")
+      ->type_name("N")
+      ->check(integerRange(0, int64_t{1} << 31))
       ->capture_default_str();
   c.add_option("--memory", s.memoryBytes,
                "vmf: memory for the data and what it is made of; units K, M, G; default: three "

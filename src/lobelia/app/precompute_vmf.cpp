@@ -64,14 +64,16 @@ Json statisticsJson(const PrecomputeOptions& options, const TransferSettings& se
   const Statistics& s = context.statistics;
   Json json = contractStatistics(options, scene, context);
   json["lights"]["model"] = "environment";
-  json["precompute"].update({{"directions", std::stoi(options.directions)},
-                             {"bounces", settings.bounces},
-                             {"lobes", options.lobes},
-                             {"rays", options.rays},
-                             {"mask_level", settings.maskLevel},
-                             {"mask_tolerance", settings.maskTolerance},
-                             {"subdivide", settings.subdivision},
-                             {"memory", settings.memoryBytes}});
+  json["precompute"].update(
+      {{"directions", std::stoi(options.directions)},
+       {"bounces", settings.bounces},
+       {"lobes", options.lobes},
+       {"rays", options.rays},
+       {"mask_level", settings.maskLevel},
+       {"mask_tolerance", std::stod(fmt::format("{}", settings.maskTolerance))},
+       {"max_vertices", settings.mostVertices},
+       {"subdivide", settings.subdivision},
+       {"memory", settings.memoryBytes}});
   json["transfer"] = transferJson(options, data);
   for (const char* stage : {"masks", "trace", "direct", "bounce"})
     json["seconds"][stage] = s.seconds(stage);

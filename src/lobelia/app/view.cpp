@@ -25,7 +25,7 @@ void requireView(const ViewOptions& options) {
   if (options.data.empty() && options.script.empty())
     throw UsageError(
         "--data is required: what `lobelia precompute` made of the scene; only scripts that choose "
-        "another method than cuts go without");
+        "a method of `render` go without");
   if (!options.script.empty() &&
       (options.rotateStep != 0 || render.frames > 0 || render.turntable || !render.frame.empty()))
     throw UsageError(
@@ -48,9 +48,11 @@ void requireView(const ViewOptions& options) {
 
 void addViewOptions(CLI::App& c, ViewOptions& o) {
   addSceneOptions(c, o.render.scene);
-  c.add_option("--data", o.data,
-               "Visibility of the scene, by `lobelia precompute`, needed for cuts; twice: of light "
-               "from infinity and of local lights")
+  c.add_option(
+       "--data", o.data,
+       "What `lobelia precompute` made of the scene, needed for cuts and transfer; several: "
+       "cuts of light from infinity, cuts of local lights, transfer; the first says which "
+       "is shown")
       ->type_name("FILE")
       ->allow_extra_args(false);
   c.add_option("--ui-script", o.uiScript,
@@ -78,10 +80,15 @@ void addViewOptions(CLI::App& c, ViewOptions& o) {
       ->check(integerRange(1, 1024))
       ->capture_default_str();
   c.add_option("--component", o.render.component,
-               "Which light of data of local lights: all, direct or indirect")
+               "Which light of transfer, or of cuts for local lights: all, direct or indirect")
       ->type_name("WHICH")
       ->check(CLI::IsMember({"all", "direct", "indirect"}))
       ->capture_default_str();
+  c.add_option("--bounce", o.bounce,
+               "Of transfer: light of so many reflections at other surfaces alone; 0: direct light")
+      ->type_name("N")
+      ->check(integerRange(0, 64))
+      ->excludes("--component");
   c.add_option("--rotate", o.rotate,
                "Turn the light from infinity about the environment's vertical axis")
       ->type_name("DEGREES")

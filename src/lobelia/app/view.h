@@ -1,5 +1,6 @@
-// `lobelia view`: frames of a scene by precomputed visibility cuts (cut_frames.h) and by the
-// methods of `render`; in a window (viewer/window_run.h) or, headless, into files.
+// `lobelia view`: frames of a scene by precomputed visibility cuts (cut_frames.h) or transfer
+// (transfer_frames.h), and by the methods of `render`; in a window (viewer/window_run.h) or,
+// headless, into files.
 #pragma once
 
 #include <string>
@@ -18,6 +19,7 @@ struct ViewOptions {
   bool headless = false;
   size_t lightCut = 512;    // nodes
   int areaPlaces = 4;       // of each area emitter
+  int bounce = -1;          // of transfer, alone; -1: all
   double rotate = 0;        // of the environment, degrees
   double rotateStep = 0;    // more with every frame
   bool plainLobes = false;  // all lobes by the light cut alone, as the paper has it

@@ -63,17 +63,26 @@ ViewFrames::ViewFrames(const ViewOptions& options, const std::string& commandLin
       first_(history_.share()),
       maker_(stage_, first_, options.render.seed) {
   requireOwnFiles(script_, options);
-  if (stage_.hasCuts()) warnOfMissing(stage_.data(), stage_.scene(), context_);
-  if (stage_.hasCuts() && !stage_.data().surfaces && options.render.component == "indirect")
+  const ViewData& data = stage_.data();
+  view_.method = data.method;
+  requireBounce(options.bounce, stage_.transferPasses());
+  if (stage_.hasCuts()) warnOfMissing(data.cuts, stage_.scene(), context_);
+  if (stage_.hasTransfer()) warnOfMissing(*data.transfer, stage_.scene(), context_);
+  if (stage_.hasCuts() && stage_.hasTransfer())
+    context_.info(fmt::format("data of cuts and of transfer: frames are by {}, of the first --data",
+                              viewMethodNames()[static_cast<size_t>(view_.method)]));
+  if (stage_.hasCuts() && !data.cuts.surfaces && options.render.component == "indirect")
     context_.warning(
         "--component indirect: the data are of direct light alone, so frames by cuts are black; "
         "add --data of `lobelia precompute --light surfaces`");
   view_.lightCut = options.lightCut;
   view_.refined = !options.plainLobes;
-  view_.cutsSpp = std::max(options.render.spp, 1);
+  view_.frameSpp = std::max(options.render.spp, 1);
   view_.cutsDepth = stage_.cutsDepth();
+  view_.transferDepth = stage_.transferDepth();
   view_.areaPlaces = options.areaPlaces;
   view_.component = options.render.component;
+  view_.bounce = options.bounce;
   view_.cropped = true;
   setCamera(plan_.front().camera);
 }
@@ -94,7 +103,7 @@ void ViewFrames::render() {
       history_.endEdit();
     }
   }
-  if (context_.statistics.count("frames") > 0)  // by cuts
+  if (context_.statistics.count("frames") > 0)  // in one go
     context_.info(fmt::format("{:.2f} frames per second", framesPerSecond(context_.statistics)));
   if (context_.statistics.count("nonfinite") > 0)
     context_.warning(fmt::format("{} values are not finite; they are left out",
@@ -153,11 +162,7 @@ void ViewFrames::play(const ScriptStep& step) {
 
 // A design that the method cannot show fails where the script says it.
 void ViewFrames::show(const Location& where) {
-  const bool cuts = view_.method == ViewMethod::cuts;
-  stage_.show(history_.share(),
-              cuts ? (view_.white ? Stage::Use::whiteCuts : Stage::Use::cuts)
-                   : (view_.white ? Stage::Use::whitePaths : Stage::Use::paths),
-              where, context_);
+  stage_.show(history_.share(), useOf(view_.method, view_.white), where, context_);
 }
 
 void ViewFrames::load(const ScriptStep& step) {
@@ -267,7 +272,7 @@ void ViewFrames::setCamera(const Camera& film) {
 
 std::shared_ptr<Picture> ViewFrames::makePicture() {
   using Step = PictureMaker::Step;
-  if (view_.method == ViewMethod::cuts) return maker_.run(Step::frame, context_);
+  if (inOneGo(view_.method)) return maker_.run(Step::frame, context_);
   maker_.restart();
   std::shared_ptr<Picture> picture;
   for (int i = 0; i < passes_; ++i) picture = maker_.run(Step::pass, context_);

@@ -34,11 +34,21 @@ Json countsJson(const Statistics& s) {
           {"evaluations_per_pixel", ratio(count("evaluations"), pixels)},
           {"fine_nodes_per_pixel",
            ratio(count("fine_chunks") * static_cast<double>(relight::kChunk), pixels)},
+          {"light_lookups_per_pixel", ratio(count("light_lookups"), pixels)},
           {"light_rays_per_frame", ratio(count("light_rays"), frames)},
           {"shadow_rays", s.count("shadow_rays") + s.count("light_rays")},
           {"mirror_rays", s.count("mirror_rays")},
           {"cut_nodes_per_pixel", ratio(count("cut_nodes"), pixels)},
           {"nonfinite", s.count("nonfinite")}};
+}
+
+Json transferJson(const transfer::TransferData& data) {
+  return {{"directions", transfer::GeodesicGrid(data.directionLevel).count()},
+          {"passes", data.passes.size()},
+          {"classes", data.classCount},
+          {"vertices", data.mesh.vertices.size()},
+          {"records", data.recordCount()},
+          {"bytes", data.byteCount()}};
 }
 
 }  // namespace
@@ -47,8 +57,9 @@ double framesPerSecond(const Statistics& statistics) {
   return ratio(static_cast<double>(statistics.count("frames")), frameSeconds(statistics));
 }
 
-void writeViewStatistics(const ViewOptions& options, const Scene& scene, const CutData& both,
+void writeViewStatistics(const ViewOptions& options, const Scene& scene, const ViewData& all,
                          const Context& context) {
+  const CutData& both = all.cuts;
   const relight::VisibilityData* const data = both.any();
   const Statistics& s = context.statistics;
   rusage usage{};
@@ -66,7 +77,7 @@ void writeViewStatistics(const ViewOptions& options, const Scene& scene, const C
                     {"samples", data != nullptr ? data->samples.count() : 0}};
   for (const char* kind : {"omni", "directional", "diffuse", "glossy", "spherical", "vsgl"})
     json["lights"][kind] = 0;
-  json["gather"] = {{"strategy", "cuts"},
+  json["gather"] = {{"strategy", viewMethodNames()[static_cast<size_t>(all.method)]},
                     {"mode", options.plainLobes ? "plain" : "refined"},
                     {"bound", ""},
                     {"threshold", nullptr},
@@ -74,6 +85,7 @@ void writeViewStatistics(const ViewOptions& options, const Scene& scene, const C
                     {"light_cut", options.lightCut},
                     {"vertices", static_cast<uint64_t>(vertices)},
                     {"visibility_cut", ratio(nodes, vertices)}};
+  if (all.transfer) json["transfer"] = transferJson(*all.transfer);
   json["receivers"] = {{"diffuse", 0}, {"glossy", 0}};
   for (const char* stage :
        {"load", "accel", "data", "prepare", "light", "buffer", "cut", "merge", "direct", "shade",

@@ -6,8 +6,10 @@
 
 namespace lobelia::builtin {
 
-Mesh dragonStatue(int cells);  // looks along -x, about 2 long and 1.6 high
-Mesh monkeyHead(int cells);    // looks along +z, about 2 wide and 1.7 high
-Mesh hareStatue(int cells);    // looks along +z, about 1.6 high
+// Looks along -x, about 2 long and 1.6 high. skin: thickness of the wings, which have holes where
+// it is less than two cells.
+Mesh dragonStatue(int cells, float skin = 0.022f);
+Mesh monkeyHead(int cells);  // looks along +z, about 2 wide and 1.7 high
+Mesh hareStatue(int cells);  // looks along +z, about 1.6 high
 
 }  // namespace lobelia::builtin

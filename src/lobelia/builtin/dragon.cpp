@@ -17,16 +17,16 @@ const std::vector<Vec3f> kSpine{
 const std::vector<float> kRadii{0.012f, 0.04f, 0.065f, 0.09f,  0.125f, 0.19f,
                                 0.205f, 0.20f, 0.145f, 0.105f, 0.09f,  0.085f};
 
-void addWings(Sculpture& s) {
+void addWings(Sculpture& s, float skin) {
   const size_t first = s.partCount();
   const Vec3f shoulder{-0.12f, 0.60f, 0.10f}, elbow{0.06f, 0.98f, 0.30f},
       wrist{-0.10f, 1.30f, 0.46f};
   const std::vector<Vec3f> tips{
       {0.62f, 1.56f, 0.66f}, {0.86f, 1.18f, 0.60f}, {0.80f, 0.80f, 0.46f}, {0.46f, 0.58f, 0.20f}};
   for (size_t i = 0; i + 1 < tips.size(); ++i) {
-    s.sheet(wrist, tips[i], tips[i + 1], 0.022f, 0.01f);
+    s.sheet(wrist, tips[i], tips[i + 1], skin, 0.01f);
   }
-  s.sheet(wrist, tips.back(), shoulder, 0.022f, 0.01f);
+  s.sheet(wrist, tips.back(), shoulder, skin, 0.01f);
   // The skin hangs in arcs between the fingers.
   for (size_t i = 0; i + 1 < tips.size(); ++i) {
     const Vec3f middle = (tips[i] + tips[i + 1]) * 0.5f;
@@ -121,9 +121,9 @@ void addHead(Sculpture& s) {
 
 }  // namespace
 
-Mesh dragonStatue(int cells) {
+Mesh dragonStatue(int cells, float skin) {
   Sculpture s;
-  addWings(s);  // first: what is carved from the skin leaves the body alone
+  addWings(s, skin);  // first: what is carved from the skin leaves the body alone
   s.chain(kSpine, kRadii, 8, 0.08f, 28, 0.11f);
   addLegs(s);
   addSpikes(s);

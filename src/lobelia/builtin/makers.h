@@ -25,6 +25,8 @@ Scene makeTreasure(float detail);
 Scene makeHall(float detail);
 Scene makeTeapot(float detail, float exponent);
 Scene makeGlasses(float detail);
+Scene makeBird(float detail);
+Scene makeDragon(float detail);
 Scene makeRoom(float detail);
 
 // Of the size of the scenes in [P004 figure 9].

@@ -45,6 +45,8 @@ constexpr BuiltinScene kBuiltins[] = {
     {"kitchen-view2", makeKitchenView2, 180000, "kitchen in the evening, a second view"},
     {"hall", makeHall, 38000, "A concert hall of curved metal sails in sun and sky [P003]"},
     {"glasses", makeGlasses, 46000, "Glossy drinking vessels on a glossy table [P002]"},
+    {"bird", makeBird, 48000, "A glossy wren on a glossy table [P002]"},
+    {"dragon", makeDragon, 85000, "A glossy dragon on a glossy base [P002]"},
     {"teapot", teapot<128>, 55800, "A teapot of Phong exponent 128 [P002]"},
     {"teapot-32", teapot<32>, 55800, "teapot, Phong exponent 32"},
     {"teapot-64", teapot<64>, 55800, "teapot, Phong exponent 64"},

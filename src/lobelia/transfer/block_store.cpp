@@ -18,7 +18,8 @@ std::span<const T> spanOf(const std::vector<T>& values) {
 // where one with fewer has stopped.
 uint64_t hashOf(const TransferSettings& s, int rayLevel, const Scene& scene) {
   uint64_t hash = transferHash(scene);
-  for (const int v : {s.directionLevel, rayLevel, s.maskLevel, s.subdivision, s.classCount})
+  for (const int v : {s.directionLevel, rayLevel, s.maskLevel, s.subdivision, s.classCount,
+                      static_cast<int>(s.mostVertices)})
     hash = hashCombine(hash, static_cast<uint64_t>(v));
   return hashCombine(hash, static_cast<uint64_t>(std::lround(double{s.maskTolerance} * 1e9)));
 }

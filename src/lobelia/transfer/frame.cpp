@@ -37,14 +37,18 @@ size_t passNumber(int pass, const TransferData& data) {
 
 struct TransferRenderer::Impl {
   Impl(const Tracer& t, const TransferData& d)
-      : tracer(t), data(d), tables(t.scene()), lookup(t.scene(), d, tables) {}
+      : tracer(t), data(d), tables(t.scene()), lookup(t.scene(), d, tables) {
+    if (!d.passes.front().diffuse.empty()) unoccluded = unoccludedDiffuse(d.mesh.vertices);
+  }
 
   const Tracer& tracer;
   const TransferData& data;
   ReflectionTables tables;
   SliceLookup lookup;
   const EmitterSampler* emitters = nullptr;
+  std::vector<DiffuseLobes> unoccluded;
   std::optional<PrefilteredLight> light;
+  std::optional<Irradiance> irradiance;
   relight::TilePool<FrameTile> tiles;
 };
 
@@ -56,6 +60,7 @@ void TransferRenderer::relight(const EmitterSampler& emitters, Context& context)
   const StageTimer timer(context, "light");
   impl_->emitters = &emitters;
   impl_->light.emplace(relight::distantLight(impl_->tracer.scene()));
+  impl_->irradiance.emplace(*impl_->light);
 }
 
 void TransferRenderer::render(const TransferFrameSettings& settings, const Camera& camera,
@@ -63,7 +68,10 @@ void TransferRenderer::render(const TransferFrameSettings& settings, const Camer
   if (!impl_->light) throw std::logic_error("TransferRenderer::relight() comes before frames");
   const int64_t start = nanosecondsNow();
   const Mat4 turned = relight::turnOfLight(impl_->tracer.scene(), settings.rotation);
-  const FrameLight light{*impl_->light, DirectionRows(transpose(turned)),
+  const FrameLight light{*impl_->light,
+                         *impl_->irradiance,
+                         impl_->unoccluded,
+                         DirectionRows(transpose(turned)),
                          passNumber(settings.firstPass, impl_->data),
                          passNumber(settings.endPass, impl_->data)};
   const EyeDirection eye(camera);

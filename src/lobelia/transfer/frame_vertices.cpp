@@ -60,18 +60,32 @@ void FrameVertices::mergeNew() {
   }
 }
 
+Rgb FrameVertices::lightOf(const DiffuseLobes& lobes) {
+  Rgb sum{};
+  for (const SliceRecord record : lobes) {
+    const TransferLobe lobe = unpack(record);
+    const float size = length(lobe.r);
+    if (lobe.share == Rgb{} || size <= 0) continue;
+    sum += lobe.share * light_->lookUp(lobe.r / size, kappaOfResultant(size));
+    ++lightLookups;
+  }
+  return sum;
+}
+
 Rgb FrameVertices::diffuseLight(uint32_t vertex) {
   Rgb sum{};
   for (size_t pass = light_->firstPass; pass < light_->endPass; ++pass) {
     const std::vector<DiffuseLobes>& lobes = data_->passes[pass].diffuse;
     if (lobes.empty()) continue;
-    for (const SliceRecord record : lobes[vertex]) {
-      const TransferLobe lobe = unpack(record);
-      const float size = length(lobe.r);
-      if (lobe.share == Rgb{} || size <= 0) continue;
-      sum += lobe.share * light_->lookUp(lobe.r / size, kappaOfResultant(size));
-      ++lightLookups;
+    const Rgb light = lightOf(lobes[vertex]);
+    if (pass > 0) {
+      sum += light;
+      continue;
     }
+    // Direct light: octants say which part of what would arrive does.
+    const Rgb whole = lightOf(light_->unoccluded[vertex]);
+    const Rgb exact = light_->irradiance.at(light_->toLight * data_->mesh.vertices[vertex].n);
+    for (int c = 0; c < 3; ++c) sum[c] += whole[c] > 0 ? light[c] / whole[c] * exact[c] : light[c];
   }
   return sum;
 }

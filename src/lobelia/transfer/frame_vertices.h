@@ -5,7 +5,7 @@
 #include "lobelia/path/direction_rows.h"
 #include "lobelia/relight/number_table.h"
 #include "lobelia/scene/camera.h"
-#include "lobelia/transfer/prefiltered_light.h"
+#include "lobelia/transfer/irradiance.h"
 #include "lobelia/transfer/slice_lookup.h"
 
 namespace lobelia::transfer {
@@ -13,8 +13,10 @@ namespace lobelia::transfer {
 // The light of a frame and what is shown of it.
 struct FrameLight {
   const PrefilteredLight& prefiltered;
-  DirectionRows toLight;              // from the world to the light as the scene has it
-  size_t firstPass = 0, endPass = 0;  // passes shown, of those there are
+  const Irradiance& irradiance;
+  std::span<const DiffuseLobes> unoccluded;  // by vertex; empty where nothing is diffuse
+  DirectionRows toLight;                     // from the world to the light as the scene has it
+  size_t firstPass = 0, endPass = 0;         // passes shown, of those there are
   Rgb lookUp(Vec3f axis, float kappa) const { return prefiltered.lookUp(toLight * axis, kappa); }
 };
 
@@ -55,6 +57,7 @@ class FrameVertices {
 
  private:
   Rgb diffuseLight(uint32_t vertex);
+  Rgb lightOf(const DiffuseLobes& lobes);
 
   const SliceLookup* lookup_ = nullptr;
   const TransferData* data_ = nullptr;

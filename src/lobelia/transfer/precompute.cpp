@@ -17,7 +17,8 @@
 namespace lobelia::transfer {
 namespace {
 
-constexpr size_t kBlock = 256;  // vertices
+constexpr size_t kBlock = 256;      // vertices
+constexpr size_t kAllowed = 20000;  // vertices that may be added to any scene
 
 // So that a lobe's solid angle, 2 pi / kappa, has 37 rays or more; a third of the paper's, but
 // evenly spread. Sharper lobes than kappa 550 have fewer.
@@ -93,7 +94,7 @@ class Precomputation {
       data_.mesh.mesh = splitMesh(tracer_.scene());
       const size_t before = data_.mesh.mesh.positions().size();
       const MaskSettings masks{settings_.maskLevel, settings_.maskTolerance, settings_.subdivision,
-                               0, budget_ / 4};
+                               mostVertices(before), budget_ / 4};
       if (settings_.subdivision > 0)
         data_.mesh.mesh = subdividedByMasks(tracer_, std::move(data_.mesh.mesh), masks, context_);
       context_.debug(fmt::format("{} vertices, {} after subdivision", before,
@@ -102,6 +103,11 @@ class Precomputation {
     }
     data_.mesh.vertices = transferVertices(tracer_.scene(), data_.mesh.mesh);
     context_.statistics.addCount("vertices", data_.mesh.vertices.size());
+  }
+
+  size_t mostVertices(size_t before) const {
+    if (settings_.mostVertices > 0) return std::max(settings_.mostVertices, before);
+    return before + std::max(before, kAllowed);
   }
 
   size_t end(size_t block) const {

@@ -15,9 +15,12 @@ struct TransferSettings {
   int maskLevel = 7;       // grid of visibility masks for subdivision: 163,842
   float maskTolerance = 0.005f;  // share of a mask by which the ends of an edge may differ
   int subdivision = 3;           // how often an edge may be halved; 0: the mesh stays as it is
-  int bounces = 2;               // reflections at other surfaces: passes - 1
-  int classCount = 1;            // TransferData::classCount
-  uint64_t memoryBytes = 0;      // budget; 0: three quarters of the machine's
+  // Vertices that subdivision may leave; 0: as many as it adds to the scene's, or 20,000 if that is
+  // more.
+  size_t mostVertices = 0;
+  int bounces = 2;           // reflections at other surfaces: passes - 1
+  int classCount = 1;        // TransferData::classCount
+  uint64_t memoryBytes = 0;  // budget; 0: three quarters of the machine's
   // Folder for what is done so far, from which a run that was stopped goes on; made if it is not
   // there, emptied and removed at the end. "": none.
   std::string workFolder;

@@ -83,9 +83,10 @@ PrefilteredLight::PrefilteredLight(const relight::DistantLight& light) {
     Level& level = levels_.emplace_back();
     level.kappa = kappa;
     level.size = sizeOf(kappa);
-    fill(light, &level);
-    if (kappa <= kWidest) return;
+    if (kappa <= kWidest) break;
   }
+  // Side by side, because each begins with what one thread does: sorting the powers.
+  parallelFor(levels_.size(), 1, [&](size_t l) { fill(light, &levels_[l]); });
 }
 
 void PrefilteredLight::fill(const relight::DistantLight& light, Level* level) const {

@@ -11,8 +11,9 @@ uint16_t quantised(float barycentric) {
   return static_cast<uint16_t>(std::lround(std::clamp(barycentric, 0.f, 1.f) * 65535));
 }
 
-// Where a ray in direction d starts; null: it leaves no face.
-const Vec3f* startOf(std::span<const relight::FacePlace> faces, Vec3f d) {
+}  // namespace
+
+const Vec3f* rayStart(std::span<const relight::FacePlace> faces, Vec3f d) {
   const Vec3f* best = nullptr;
   float most = 0;
   for (const relight::FacePlace& face : faces) {
@@ -22,8 +23,6 @@ const Vec3f* startOf(std::span<const relight::FacePlace> faces, Vec3f d) {
   }
   return best;
 }
-
-}  // namespace
 
 RayTracer::RayTracer(const Tracer& tracer, const GeodesicGrid& grid,
                      std::span<const uint32_t> firstTriangle)
@@ -58,7 +57,7 @@ void RayTracer::trace(std::span<const relight::FacePlace> faces, VertexRays* out
   out->blocked.assign(words, 0);
   out->hits.clear();
   for (uint32_t d = 0; d < grid_.count(); ++d) {
-    const Vec3f* from = startOf(faces, grid_.directions()[d]);
+    const Vec3f* from = rayStart(faces, grid_.directions()[d]);
     if (from == nullptr) continue;
     setLane(lanes_++, d, *from);
     if (lanes_ == ShadowPacket::kSize) flush(out);

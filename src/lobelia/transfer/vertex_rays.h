@@ -29,12 +29,16 @@ struct VertexRays {
   std::vector<RayHit> hits;             // of the blocked ones, in their order
 };
 
+// Where a ray in direction d starts: at the face that looks there most (bothSides faces look both
+// ways). Null: it leaves none.
+const Vec3f* rayStart(std::span<const relight::FacePlace> faces, Vec3f d);
+
 class RayTracer {
  public:
   // Keeps references. For one thread.
   RayTracer(const Tracer& tracer, const GeodesicGrid& grid,
             std::span<const uint32_t> firstTriangle);
-  // Each ray starts at the face that looks in its direction most; bothSides faces look both ways.
+  // Each ray from its rayStart().
   void trace(std::span<const relight::FacePlace> faces, VertexRays* out);
   uint64_t rays() const { return rays_; }  // since it was made
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lobelia/scene/material_parameters.h"
+#include "lobelia/scene/surface_hash.h"
 
 namespace lobelia::app {
 namespace {
@@ -169,6 +170,8 @@ bool sameLight(const std::vector<Emitter>& a, const std::vector<Emitter>& b) {
            x.angularRadius == y.angularRadius;
   });
 }
+
+uint64_t materialsHash(const Design& design) { return surfaceHash(sceneOf(design)); }
 
 size_t sizeOf(const Design& design) {
   size_t bytes = design.materials.size() * sizeof(Material) +

@@ -52,6 +52,9 @@ std::vector<Emitter> turnedEmitters(const Design& design, double degrees);
 // Is it the same light, whatever textures are? False where an emitter has one.
 bool sameLight(const std::vector<Emitter>& a, const std::vector<Emitter>& b);
 
+// Of materials and their textures, images by number.
+uint64_t materialsHash(const Design& design);
+
 // About how many bytes a copy takes, images left out.
 size_t sizeOf(const Design& design);
 

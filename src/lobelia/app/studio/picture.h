@@ -14,7 +14,7 @@ struct Picture {
   // Scene-linear RGB in layer ""; where asked for or known: "cost" (cuts: evaluations of lobes for
   // directions, others: rays, per sample), "samples", "error" (standard error of the luminance).
   Film film;
-  std::string method;  // "cuts", "path"...
+  std::string method;  // "cuts", "transfer", "path"...
   bool quick = false;  // a first look, smaller than what was asked for
   bool white = false;  // of white surfaces (irradiance over pi)
   int passes = 1, samples = 1;

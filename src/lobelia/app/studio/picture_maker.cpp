@@ -61,7 +61,7 @@ void PictureMaker::restart() {
 
 bool PictureMaker::isDone() const {
   if (givenUp_ || !design_ || view_.width < 1 || view_.height < 1) return true;
-  return view_.method == ViewMethod::cuts ? started_ : started_ && mean_.samples() >= view_.spp;
+  return inOneGo(view_.method) ? started_ : started_ && mean_.samples() >= view_.spp;
 }
 
 PictureMaker::Step PictureMaker::next() const {
@@ -70,20 +70,20 @@ PictureMaker::Step PictureMaker::next() const {
   // Both at once share the time.
   if (isDone()) return truth ? Step::truth : Step::none;
   if (truth && mean_.passes() > 0 && truthSeconds_ < pictureSeconds_) return Step::truth;
-  if (view_.method == ViewMethod::cuts)
+  if (inOneGo(view_.method))
     return !looked_ && frameSeconds_ > kSlowFrame && mayBeSmaller(view_) ? Step::look : Step::frame;
   return started_ ? Step::pass : Step::look;
 }
 
 void PictureMaker::giveUp(Step step) { (step == Step::truth ? truthGivenUp_ : givenUp_) = true; }
 
-void PictureMaker::show(bool cuts, Context& context) {
-  if (cuts) return showCuts(context);
-  stage_.show(design_, view_.white ? Stage::Use::whitePaths : Stage::Use::paths, {}, context);
+void PictureMaker::show(ViewMethod method, Context& context) {
+  if (method == ViewMethod::cuts) return showCuts(context);
+  stage_.show(design_, useOf(method, view_.white), {}, context);
 }
 
 void PictureMaker::showCuts(Context& context) {
-  const Stage::Use use = view_.white ? Stage::Use::whiteCuts : Stage::Use::cuts;
+  const Stage::Use use = useOf(ViewMethod::cuts, view_.white);
   try {
     stage_.show(design_, use, {}, context);
     accepted_ = design_;
@@ -101,8 +101,8 @@ std::shared_ptr<Picture> PictureMaker::run(Step step, Context& context) {
   const int64_t start = nanosecondsNow();
   std::shared_ptr<Picture> picture;
   context.seed = seed_;
-  const bool cuts = view_.method == ViewMethod::cuts;
-  show(step == Step::frame || (step == Step::look && cuts), context);
+  const bool whole = inOneGo(view_.method);
+  show(step == Step::truth ? ViewMethod::path : view_.method, context);
   switch (step) {
     case Step::none:
       return nullptr;
@@ -129,7 +129,7 @@ std::shared_ptr<Picture> PictureMaker::run(Step step, Context& context) {
       break;
   }
   if (step == Step::look) looked_ = true;
-  if (step != Step::truth && !(step == Step::look && cuts)) started_ = true;
+  if (step != Step::truth && !(step == Step::look && whole)) started_ = true;
   picture->seconds = secondsSince(start);
   double& all = step == Step::truth ? truthSeconds_ : pictureSeconds_;
   all += picture->seconds;
@@ -149,16 +149,25 @@ std::shared_ptr<Picture> PictureMaker::frame(const ViewState& view, Context& con
   picture->film = makeFilm(camera, {});
   picture->film.layers.erase("direct");
   picture->film.layers.erase("indirect");
+  picture->method = viewMethodNames()[static_cast<size_t>(view.method)];
+  if (view.method == ViewMethod::transfer) {
+    stage_.renderTransfer(camera,
+                          {.spp = view.frameSpp,
+                           .rotation = design_->rotation,
+                           .component = view.component,
+                           .bounce = view.bounce},
+                          picture->film, context);
+    return picture;
+  }
   if (view.cost) picture->film.addLayer("cost", 1);
   stage_.renderCuts(camera,
-                    {.spp = view.cutsSpp,
+                    {.spp = view.frameSpp,
                      .lightCut = view.lightCut,
                      .rotation = design_->rotation,
                      .plainLobes = !view.refined,
                      .areaPlaces = view.areaPlaces,
                      .component = view.component},
                     picture->film, context);
-  picture->method = viewMethodNames()[static_cast<size_t>(ViewMethod::cuts)];
   return picture;
 }
 
@@ -171,7 +180,7 @@ std::shared_ptr<Picture> PictureMaker::look(Context& context) {
   small.width /= kLookDivisor, small.height /= kLookDivisor, small.cropped = false;
   context.seed = hashCombine(seed_, kLookStream);
   std::shared_ptr<Picture> picture;
-  if (view_.method == ViewMethod::cuts) {
+  if (inOneGo(view_.method)) {
     picture = frame(small, context);
   } else {
     picture = std::make_shared<Picture>();

@@ -1,7 +1,7 @@
-// Makes the pictures of a view, step by step: a frame by cuts, after a first look at a quarter of
-// the size when frames are slow; or such a look and then pass after pass, averaged; and the
-// path-traced truth beside it. For one thread;
-// synchronous: the window's worker and headless frames call it.
+// Makes the pictures of a view, step by step: a frame by cuts or transfer, after a first look at a
+// quarter of the size when frames are slow; or such a look and then pass after pass, averaged; and
+// the path-traced truth beside it. For one thread; synchronous: the window's worker and headless
+// frames call it.
 //
 // A design that cuts cannot show is said to be so, once, and they go on with the last one that they
 // could.
@@ -37,7 +37,7 @@ class PictureMaker {
   // Is there nothing more to be done to the picture?
   bool isDone() const;
   // Does it: the picture after it, or of step truth the truth. Throws InputError (no data for
-  // cuts), RuntimeError, Cancelled; after a failure the picture is left as it
+  // the method), RuntimeError, Cancelled; after a failure the picture is left as it
   // is until something else is wanted.
   std::shared_ptr<Picture> run(Step step, Context& context);
   // Would the truth so far still be that of these?
@@ -53,7 +53,7 @@ class PictureMaker {
   std::shared_ptr<Picture> frame(const ViewState& view, Context& context);
   std::shared_ptr<Picture> look(Context& context);
   std::shared_ptr<Picture> pass(ViewMethod method, PassMean& mean, Context& context);
-  void show(bool cuts, Context& context);
+  void show(ViewMethod method, Context& context);
   void showCuts(Context& context);
 
   Stage& stage_;
@@ -66,7 +66,8 @@ class PictureMaker {
   bool looked_ = false;   // the look is done, if there is to be one
   bool started_ = false;  // frame or look is done
   bool givenUp_ = false, truthGivenUp_ = false;
-  double frameSeconds_ = 0;  // that the last frame by cuts took, or had taken when it was cancelled
+  double frameSeconds_ =
+      0;  // that the last frame in one go took, or had taken when it was cancelled
   double pictureSeconds_ = 0, truthSeconds_ = 0;
 };
 

@@ -11,8 +11,12 @@ namespace lobelia::app {
 namespace {
 
 bool forCuts(Stage::Use use) { return use == Stage::Use::cuts || use == Stage::Use::whiteCuts; }
+bool forTransfer(Stage::Use use) {
+  return use == Stage::Use::transfer || use == Stage::Use::whiteTransfer;
+}
 bool isWhite(Stage::Use use) {
-  return use == Stage::Use::whiteCuts || use == Stage::Use::whitePaths;
+  return use == Stage::Use::whiteCuts || use == Stage::Use::whiteTransfer ||
+         use == Stage::Use::whitePaths;
 }
 
 // Every surface white and diffuse on the sides on which it scattered; masks stay.
@@ -42,7 +46,10 @@ Stage::Stage(Scene scene, const std::vector<std::string>& data, Context& context
       hideEmitters_(scene_.hideEmitters),
       sceneImages_(scene_.images.size()),
       geometry_(relight::geometryHash(scene_)),
-      data_(loadCutData(data, scene_, context)),
+      data_(loadViewData(data, scene_, context)),
+      materials_(scene_.materials),
+      textures_(scene_.textures),
+      materialsHash_(materialsHash(designOf(scene_))),
       tracedGeometry_(geometry_),
       masked_(hasMasks()),
       tracer_(std::make_unique<Tracer>(scene_, context)) {
@@ -69,11 +76,15 @@ void Stage::fill(const Design& design, Use use) {
   if (!sameImages) exchangeImages(design.images);
   scene_.materials = design.materials;
   scene_.textures = design.textures;
+  if (forTransfer(use)) {
+    scene_.materials = materials_;
+    std::copy(textures_.begin(), textures_.end(), scene_.textures.begin());  // others stand behind
+  }
   scene_.cameras = design.cameras;
   scene_.hideEmitters = hideEmitters_ || isWhite(use);
   if (isWhite(use)) whiten(scene_.materials);
   std::vector<Emitter> emitters =
-      forCuts(use) ? design.emitters : turnedEmitters(design, design.rotation);
+      forCuts(use) || forTransfer(use) ? design.emitters : turnedEmitters(design, design.rotation);
   const bool same = sameImages && sameLight(emitters, scene_.emitters);
   if (same) return;  // in the same memory
   scene_.emitters = std::move(emitters);
@@ -85,11 +96,30 @@ void Stage::requireCuts(uint64_t geometry, const Location& where) const {
     throw InputError(where,
                      "there is no data of visibility; name it with --data, or choose "
                      "another method");
-  requireKnownSides(data_, scene_, where);
+  requireKnownSides(data_.cuts, scene_, where);
   if (geometry != geometry_)
     throw InputError(where,
                      "this changes which parts of surfaces are masked out, which the visibility "
                      "has to know; make a scene with it and precompute that");
+}
+
+void Stage::requireTransfer(Use use, const Location& where) const {
+  if (!hasTransfer())
+    throw InputError(where,
+                     "there is no data of transfer (`lobelia precompute --method vmf`); name it "
+                     "with --data, or choose another method");
+  if (isWhite(use))
+    throw InputError(where,
+                     "transfer has the scene's own materials, not white ones, which illuminance is "
+                     "measured on; choose another method");
+}
+
+void Stage::sayOfMaterials(const Design& design, Context& context) {
+  if (saidOfMaterials_ || materialsHash(design) == materialsHash_) return;
+  saidOfMaterials_ = true;
+  context.warning(
+      "transfer shows the materials as they were when it was precomputed; other methods show what "
+      "was changed of them");
 }
 
 void Stage::show(std::shared_ptr<const Design> design, Use use, const Location& where,
@@ -101,8 +131,13 @@ void Stage::show(std::shared_ptr<const Design> design, Use use, const Location& 
     const bool masks = hasMasks();
     const uint64_t geometry = masks || masked_ ? relight::geometryHash(scene_) : tracedGeometry_;
     if (forCuts(use)) requireCuts(geometry, where);
+    if (forTransfer(use)) requireTransfer(use, where);
     if (geometry != tracedGeometry_) prepareRays(geometry, masks);
     if (!lightStands_) prepareLight(context);
+    if (forTransfer(use)) {
+      if (!transferLit_) prepareTransfer(context);
+      sayOfMaterials(*design, context);
+    }
   } catch (...) {
     // Should that fail as well, nothing is shown, and the next design is prepared as a whole.
     if (auto before = std::exchange(shown_, nullptr)) show(std::move(before), use_, where, context);
@@ -116,7 +151,7 @@ void Stage::show(std::shared_ptr<const Design> design, Use use, const Location& 
 void Stage::prepareRays(uint64_t geometry, bool masks) {
   Context own;
   auto tracer = std::make_unique<Tracer>(scene_, own);
-  cuts_.reset(), emitters_.reset();
+  cuts_.reset(), transfer_.reset(), emitters_.reset();
   lightStands_ = false;
   tracer_ = std::move(tracer);
   tracedGeometry_ = geometry, masked_ = masks;
@@ -124,14 +159,23 @@ void Stage::prepareRays(uint64_t geometry, bool masks) {
 
 void Stage::prepareLight(Context& context) {
   const StageTimer timer(context, "prepare");
-  lightStands_ = false;
+  lightStands_ = transferLit_ = false;
   auto emitters = std::make_unique<EmitterSampler>(scene_, tracer_->bounds());
   if (hasCuts()) {
-    if (!cuts_) cuts_ = std::make_unique<CutFrames>(*tracer_, data_);
+    if (!cuts_) cuts_ = std::make_unique<CutFrames>(*tracer_, data_.cuts);
     cuts_->relight(*emitters);
   }
   emitters_ = std::move(emitters);
   lightStands_ = true;
+}
+
+// When the scene has the materials of the data, and only for who looks at transfer: it takes longer
+// than light for cuts.
+void Stage::prepareTransfer(Context& context) {
+  const StageTimer timer(context, "prepare");
+  if (!transfer_) transfer_ = std::make_unique<TransferFrames>(*tracer_, *data_.transfer);
+  transfer_->relight(*emitters_);
+  transferLit_ = true;
 }
 
 void Stage::requireValid(const Location& where) const {
@@ -169,12 +213,29 @@ void Stage::renderCuts(const Camera& camera, const CutSettings& settings, Film& 
   cuts_->render(settings, camera, film, context);
 }
 
+void Stage::renderTransfer(const Camera& camera, const TransferView& view, Film& film,
+                           Context& context) {
+  transfer_->render(view, camera, film, context);
+}
+
 Film Stage::renderPass(const Camera& camera, const RenderOptions& options, Context& context) {
   static const std::string kNoCommand;
   FrameRun run{scene_, *tracer_, *emitters_, kNoCommand, nullptr, {}, {}};
   RenderedFilm rendered = renderFilm({0, camera, options}, run, context);
   if (context.cancelled()) throw Cancelled{};
   return std::move(rendered.film);
+}
+
+Stage::Use useOf(ViewMethod method, bool white) {
+  using Use = Stage::Use;
+  switch (method) {
+    case ViewMethod::cuts:
+      return white ? Use::whiteCuts : Use::cuts;
+    case ViewMethod::transfer:
+      return white ? Use::whiteTransfer : Use::transfer;
+    default:
+      return white ? Use::whitePaths : Use::paths;
+  }
 }
 
 }  // namespace lobelia::app

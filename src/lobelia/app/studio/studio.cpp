@@ -57,6 +57,7 @@ Studio::Studio(const StudioSettings& settings, Context& context)
       strict_(settings.scene.strict),
       inputs_(inputsOf(settings)),
       hasCuts_(stage_->hasCuts()),
+      transferPasses_(stage_->transferPasses()),
       name_(stage_->scene().name),
       bounds_(stage_->tracer().bounds()),
       history_(firstDesign(stage_->scene(), settings.rotation)),
@@ -64,7 +65,8 @@ Studio::Studio(const StudioSettings& settings, Context& context)
       desk_(settings.wake) {
   view_.camera = history_.now().cameras.front();
   view_.cutsDepth = stage_->cutsDepth();
-  if (!hasCuts_) view_.method = ViewMethod::path;
+  view_.transferDepth = stage_->transferDepth();
+  view_.method = hasCuts_ || transferPasses_ > 0 ? stage_->data().method : ViewMethod::path;
   if (context.cancelled()) throw Cancelled{};
   thread_ = std::thread([this] { work(); });
 }

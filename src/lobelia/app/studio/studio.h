@@ -24,7 +24,7 @@ namespace lobelia::app {
 
 struct StudioSettings {
   SceneOptions scene;
-  std::vector<std::string> data;  // files of `lobelia precompute`; none: without cuts
+  std::vector<std::string> data;  // files of `lobelia precompute`; none: without cuts and transfer
   uint64_t seed = 0;
   double rotation = 0;  // of the light from infinity, to begin with; degrees
   // Called by any thread when update(), the newest pictures, messages or a pick have something new.
@@ -54,6 +54,7 @@ class Studio {
   Studio& operator=(const Studio&) = delete;
 
   bool hasCuts() const { return hasCuts_; }
+  int transferPasses() const { return transferPasses_; }  // 0: without transfer
   const std::string& sceneName() const { return name_; }
   // Box of the scene, for cameras and handles of lights.
   Bounds3f bounds() const { return bounds_; }
@@ -118,6 +119,7 @@ class Studio {
   const bool strict_;
   const std::vector<std::string> inputs_;  // files that are not written over
   const bool hasCuts_;
+  const int transferPasses_;
   const std::string name_;
   const Bounds3f bounds_;
   History history_;

@@ -13,7 +13,7 @@ bool sameRays(const Camera& a, const Camera& b) {
 }
 
 const std::vector<std::string>& viewMethodNames() {
-  static const std::vector<std::string> names{"cuts", "path", "sglc", "vsl", "vsgl"};
+  static const std::vector<std::string> names{"cuts", "transfer", "path", "sglc", "vsl", "vsgl"};
   return names;
 }
 
@@ -38,6 +38,7 @@ Camera viewCamera(const ViewState& view) {
 int depthOf(const ViewState& view) {
   constexpr int kDirect = 2;
   if (view.white) return kDirect;
+  if (view.method == ViewMethod::transfer) return view.transferDepth;
   return view.method == ViewMethod::cuts ? view.cutsDepth : view.maxDepth;
 }
 
@@ -53,6 +54,7 @@ RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp) {
   };
   switch (method) {
     case ViewMethod::cuts:
+    case ViewMethod::transfer:
     case ViewMethod::path:
       options.lights = "path";
       break;
@@ -75,9 +77,9 @@ RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp) {
 bool samePicture(const ViewState& a, const ViewState& b) {
   return sameRays(a.camera, b.camera) && a.width == b.width && a.height == b.height &&
          a.method == b.method && a.lightCut == b.lightCut && a.refined == b.refined &&
-         a.cutsSpp == b.cutsSpp && a.areaPlaces == b.areaPlaces && a.component == b.component &&
-         a.cropped == b.cropped && a.lightCount == b.lightCount && a.maxDepth == b.maxDepth &&
-         a.cost == b.cost && a.white == b.white;
+         a.frameSpp == b.frameSpp && a.bounce == b.bounce && a.areaPlaces == b.areaPlaces &&
+         a.component == b.component && a.cropped == b.cropped && a.lightCount == b.lightCount &&
+         a.maxDepth == b.maxDepth && a.cost == b.cost && a.white == b.white;
 }
 
 bool sameTruth(const ViewState& a, const ViewState& b) {

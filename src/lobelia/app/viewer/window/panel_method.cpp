@@ -25,6 +25,18 @@ void drawCuts(UiState& ui) {
   ui.widgets.checkBox("finer light for narrow lobes", ui.view.refined);
 }
 
+// Of light by the number of its bounces.
+void drawTransfer(UiState& ui) {
+  std::vector<std::string> names{"all", "direct"};
+  const int passes = ui.studio.transferPasses();
+  for (int i = 1; i < passes; ++i) names.push_back(fmt::format("bounce {}", i));
+  std::vector<const char*> words;
+  for (const std::string& name : names) words.push_back(name.c_str());
+  int chosen = ui.view.bounce + 1;
+  if (ui.widgets.choice("light", chosen, words)) ui.view.bounce = chosen - 1;
+  ui.widgets.hint("all, or what has so many reflections before the surface that is seen");
+}
+
 void drawProgressive(UiState& ui) {
   ui.widgets.slider("samples", ui.view.spp, 1, kMostSamples, true);
   ui.widgets.hint("of a pixel, after which the picture is done");
@@ -38,17 +50,26 @@ void drawProgressive(UiState& ui) {
   ui.widgets.hint("most edges of a light's path: 2 is direct light; 0: as the scene says");
 }
 
+const char* whyNot(const Studio& studio, ViewMethod method) {
+  if (method == ViewMethod::cuts && !studio.hasCuts())
+    return "cuts want precomputed visibility: `lobelia precompute SCENE --method cuts -o FILE`, "
+           "then `lobelia view SCENE --data FILE`";
+  if (method == ViewMethod::transfer && studio.transferPasses() == 0)
+    return "transfer wants to be precomputed: `lobelia precompute SCENE --method vmf -o FILE`, "
+           "then `lobelia view SCENE --data FILE`";
+  return nullptr;
+}
+
 void drawMethods(UiState& ui) {
   std::vector<const char*> names;
   for (const std::string& name : viewMethodNames()) names.push_back(name.c_str());
   int chosen = static_cast<int>(ui.view.method);
   if (ui.widgets.choice("method", chosen, names)) {
-    if (static_cast<ViewMethod>(chosen) == ViewMethod::cuts && !ui.studio.hasCuts()) {
-      ui.notes.add(Severity::warning,
-                   "cuts want precomputed visibility: `lobelia precompute SCENE --method cuts -o "
-                   "FILE`, then `lobelia view SCENE --data FILE`");
+    const auto method = static_cast<ViewMethod>(chosen);
+    if (const char* why = whyNot(ui.studio, method)) {
+      ui.notes.add(Severity::warning, why);
     } else {
-      ui.view.method = static_cast<ViewMethod>(chosen);
+      ui.view.method = method;
     }
   }
 }
@@ -80,8 +101,13 @@ void drawTimes(const Picture& picture) {
   }
 }
 
+bool isInOneGo(const Picture& picture) {
+  const std::optional<ViewMethod> method = viewMethod(picture.method);
+  return method && inOneGo(*method);
+}
+
 void drawFigures(const Picture& picture) {
-  if (picture.method == "cuts") {
+  if (isInOneGo(picture)) {
     ImGui::TextUnformatted(
         fmt::format("{:.1f} frames/s, {}", picture.framesPerSecond(), milliseconds(picture.seconds))
             .c_str());
@@ -104,6 +130,8 @@ void drawMethodPanel(UiState& ui) {
   drawMethods(ui);
   if (ui.view.method == ViewMethod::cuts) {
     drawCuts(ui);
+  } else if (ui.view.method == ViewMethod::transfer) {
+    drawTransfer(ui);
   } else {
     drawProgressive(ui);
   }
@@ -121,7 +149,7 @@ std::string statusText(const UiState& ui) {
   if (ui.studio.openFiles() > 0) return method + ": reading or writing a file";
   if (!ui.picture) return method + ": drawing the first picture";
   const Picture& p = *ui.picture;
-  if (p.method == "cuts") return fmt::format("cuts: {:.1f} frames/s", p.framesPerSecond());
+  if (isInOneGo(p)) return fmt::format("{}: {:.1f} frames/s", p.method, p.framesPerSecond());
   if (p.quick) return fmt::format("{}: a first look", p.method);
   const bool done = p.samples >= ui.view.spp;
   std::string out =

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "lobelia/app/transfer_frames.h"
 #include "lobelia/app/viewer/window/panels.h"
 #include "lobelia/io/image_io.h"
 
@@ -37,11 +38,13 @@ Viewer::Viewer(const ViewOptions& options, Studio& studio, Surface& surface, Con
       ui_(studio, options.render.camera.empty()
                       ? studio.view().camera
                       : cameraNamed(studio.design().cameras, options.render.camera)) {
+  requireBounce(options.bounce, studio.transferPasses());
   UiState& ui = ui_.state();
   ui.view.lightCut = options.lightCut;
   ui.view.refined = !options.plainLobes;
   ui.view.areaPlaces = options.areaPlaces;
   ui.view.component = options.render.component;
+  ui.view.bounce = options.bounce;
   ui.display.exposure = options.render.exposure;
   if (options.render.spp > 0) ui.view.spp = options.render.spp;
   if (!options.uiScript.empty()) player_.emplace(readUiScript(options.uiScript), stage());

@@ -1,0 +1,164 @@
+// `lobelia view` on data of `lobelia precompute --method vmf`, as a user types it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/block_scene.h"
+#include "app/command_line.h"
+#include "lobelia/film/metrics.h"
+#include "lobelia/io/image_io.h"
+
+namespace lobelia::test {
+namespace {
+
+constexpr const char* kSun = R"(<scene version="3.0.0"><emitter type="directional">
+  <vector name="direction" value="-0.4, -1, -0.3"/><rgb name="irradiance" value="2, 1.8, 1.5"/>
+  </emitter></scene>)";
+
+using Values = std::vector<float>;
+
+class ViewTransfer : public testing::Test {
+ protected:
+  void SetUp() override {
+    writeText(file("scene.xml"), kBlockScene);
+    const ProgramResult r =
+        runProgram("precompute " + file("scene.xml") +
+                   " --method vmf --directions 162 --rays 4 --subdivide 2 --mask-level 4 "
+                   "--mask-tolerance 0.1 --quiet -o " +
+                   file("data"));
+    ASSERT_EQ(r.exitCode, 0) << r.err;
+  }
+  std::string file(const std::string& name) const { return folder_ / name; }
+  std::string command(const std::string& options, const std::string& name) const {
+    return "view " + file("scene.xml") + " --data " + file("data") + " --headless " + options +
+           " -o " + file(name);
+  }
+  Film film(const std::string& options) const {
+    const ProgramResult r = runProgram(command("--quiet " + options, "view.exr"));
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return io::readFilm(file("view.exr"));
+  }
+  Values view(const std::string& options) const { return film(options).layers.at("").values; }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ViewTransfer, IsThePathTracersPicture) {
+  const ProgramResult r =
+      runProgram("render " + file("scene.xml") +
+                 " --lights path --max-depth 4 --spp 256 --quiet -o " + file("reference.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const Comparison c = compare(film("--spp 16"), io::readFilm(file("reference.exr")));
+  EXPECT_NEAR(c.meanRatio, 1, 0.02);
+  EXPECT_LT(c.l2, 0.05);
+}
+
+TEST_F(ViewTransfer, BouncesAddUp) {
+  const Values all = view(""), direct = view("--component direct"),
+               indirect = view("--component indirect");
+  EXPECT_EQ(view("--bounce 0"), direct);
+  const Values first = view("--bounce 1"), second = view("--bounce 2");
+  float most = 0;
+  for (size_t i = 0; i < all.size(); ++i) {
+    EXPECT_NEAR(direct[i] + indirect[i], all[i], 1e-4f + 1e-3f * all[i]);
+    EXPECT_NEAR(first[i] + second[i], indirect[i], 1e-4f + 1e-3f * indirect[i]);
+    most = std::max(most, second[i]);
+  }
+  EXPECT_GT(most, 0);
+  EXPECT_EQ(indirect[0], 0) << "the sky, which is direct light";
+  EXPECT_GT(direct[0], 0);
+  expectFailure(command("--bounce 3", "x.exr"), 2, "0 to 2 bounces");
+  expectFailure(command("--bounce 1 --component all", "x.exr"), 2, "--component");
+}
+
+TEST_F(ViewTransfer, FramesTurnTheLightAndSayWhatTheyCost) {
+  const std::string sun = "--design " + file("sun.xml") + " ";
+  writeText(file("sun.xml"), kSun);
+  const ProgramResult r = runProgram(
+      command(sun + "--frames 3 --rotate-step 60 --stats " + file("stats.json"), "f%d.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const Values last = io::readFilm(file("f2.exr")).layers.at("").values;
+  EXPECT_NE(io::readFilm(file("f0.exr")).layers.at("").values, last);
+  EXPECT_EQ(last, view(sun + "--rotate 120"));
+  EXPECT_EQ(last, view(sun + "--rotate 120 --threads 1"));
+  const nlohmann::json stats = nlohmann::json::parse(readText(file("stats.json")));
+  EXPECT_EQ(stats["gather"]["strategy"], "transfer");
+  EXPECT_EQ(stats["transfer"]["directions"], 162);
+  EXPECT_EQ(stats["transfer"]["passes"], 3);
+  EXPECT_EQ(stats["counts"]["frames"], 3);
+  EXPECT_GT(stats["counts"]["light_lookups_per_pixel"], 0);
+  EXPECT_EQ(stats["counts"]["nonfinite"], 0);
+  EXPECT_GT(stats["frames_per_second"], 0);
+  for (const char* stage : {"prepare", "buffer", "merge", "shade"})
+    EXPECT_GT(stats["seconds"][stage], 0) << stage;
+}
+
+// Light changes at once; materials stay as they were precomputed, which is said once.
+TEST_F(ViewTransfer, ScriptsChangeTheLightAlone) {
+  writeText(file("sun.xml"), kSun);
+  writeText(file("script.txt"),
+            "frame\ndesign sun.xml\nframe\nmaterial paint alpha 0.05\nframe\nturn 30\n"
+            "material paint alpha 0.1\nframe\nmethod path 2\nframe\nmethod transfer\nframe\n"
+            "method cuts\n");
+  const ProgramResult r = runProgram(command("--script " + file("script.txt"), "s%d.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const auto values = [&](int frame) {
+    return io::readFilm(file("s" + std::to_string(frame) + ".exr")).layers.at("").values;
+  };
+  EXPECT_EQ(values(0), view(""));
+  EXPECT_NE(values(1), values(0));
+  EXPECT_EQ(values(2), values(1));
+  EXPECT_EQ(values(3), view("--rotate 30 --design " + file("sun.xml")));
+  EXPECT_NE(values(4), values(3));
+  EXPECT_EQ(values(5), values(3));
+  const std::string said = "materials as they were when it was precomputed";
+  const size_t at = r.err.find(said);
+  EXPECT_NE(at, std::string::npos) << r.err;
+  EXPECT_EQ(r.err.find(said, at + 1), std::string::npos) << r.err;
+}
+
+TEST_F(ViewTransfer, TheFirstDataAreShown) {
+  const ProgramResult made =
+      runProgram("precompute " + file("scene.xml") +
+                 " --method cuts --samples 512 --clusters 16 --quiet -o " + file("cuts"));
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  EXPECT_EQ(view("--data " + file("cuts")), view(""));
+  const ProgramResult r = runProgram(command("--data " + file("cuts"), "x.exr"));
+  EXPECT_NE(r.err.find("frames are by transfer"), std::string::npos) << r.err;
+  writeText(file("script.txt"), "method cuts\nframe\n");
+  const Values cuts = view("--data " + file("cuts") + " --script " + file("script.txt"));
+  const ProgramResult other =
+      runProgram("view " + file("scene.xml") + " --headless --data " + file("cuts") + " --data " +
+                 file("data") + " -o " + file("y.exr"));
+  EXPECT_NE(other.err.find("frames are by cuts"), std::string::npos) << other.err;
+  EXPECT_EQ(io::readFilm(file("y.exr")).layers.at("").values, cuts);
+}
+
+TEST_F(ViewTransfer, RefusesWhatItCannotDraw) {
+  expectFailure(command("--data " + file("data"), "x.exr"), 2, "second file of --method vmf");
+  const auto failing = [&](const std::string& script, const std::string& said) {
+    writeText(file("script.txt"), script);
+    expectFailure(command("--script " + file("script.txt"), "x.exr"), 3, said);
+  };
+  failing("method cuts\nframe\n", "no data of visibility");
+  failing("frame\nfalse-colour illuminance\nframe\n", "script.txt:3");
+  std::string scene = kBlockScene;
+  scene.replace(scene.find("0.3\"/></bsdf>"), 3, "0.2");
+  writeText(file("scene.xml"), scene);
+  expectFailure(command("", "x.exr"), 3, "materials or textures were changed");
+}
+
+TEST_F(ViewTransfer, SaysWhatItLeavesOut) {
+  std::string scene = kBlockScene;
+  const size_t from = scene.find("<emitter"), to = scene.find("</emitter>");
+  scene.replace(from, to - from, R"(<emitter type="point"><point name="position" value="0, 3, 0"/>
+    <rgb name="intensity" value="9"/>)");
+  writeText(file("scene.xml"), scene);
+  const ProgramResult r = runProgram(command("", "x.exr"));
+  EXPECT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_NE(r.err.find("no light from infinity"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("1 of 1 emitters are not at infinity"), std::string::npos) << r.err;
+}
+
+}  // namespace
+}  // namespace lobelia::test
