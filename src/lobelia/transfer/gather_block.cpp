@@ -225,7 +225,7 @@ class DirectPass {
           all += weight;
           if ((free >> l & 1) == 0 || weight <= 0) continue;
           const Vec3f d{sphere_->chunks.x[i], sphere_->chunks.y[i], sphere_->chunks.z[i]};
-          octants[octantOf(d)].add(weight, {Rgb(1), d});
+          octants[transfer::octantOf(d)].add(weight, {Rgb(1), d});
         }
       }
     }
@@ -250,12 +250,27 @@ class DirectPass {
   std::vector<SliceRecord> records_, ownRecords_;
 };
 
-// What arrives along a ray that ends at a surface.
-struct Incoming {
-  LobeMoment narrow, broad;  // of paths with glossy reflections alone, and of others
+// A moment as numbers of which compilers make registers; the last two are 0.
+using Numbers = std::array<float, 8>;
+Numbers numbersOf(const LobeMoment& m) {
+  return {m.alpha.x, m.alpha.y, m.alpha.z, m.first.x, m.first.y, m.first.z, 0, 0};
+}
+void addTo(Numbers* sum, float weight, const Numbers& n) {
+  for (size_t i = 0; i < n.size(); ++i) (*sum)[i] += weight * n[i];
+}
+// total: of the weights of all rays.
+TransferLobe lobeOf(const Numbers& n, float total) {
+  return LobeTotal{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}}.lobe(total);
+}
+
+uint32_t octantOf(const Numbers& n) { return transfer::octantOf(Vec3f(n[3], n[4], n[5])); }
+
+// What arrives along a ray that ends at a surface: of paths with glossy reflections alone, and of
+// others.
+struct alignas(32) Incoming {
+  Numbers narrow, broad;
   int narrowClass = 0;
 };
-static_assert(sizeof(LobeMoment) == 6 * sizeof(float));
 
 class BouncePass {
  public:
@@ -306,6 +321,7 @@ class BouncePass {
 
   Incoming arriving(const RayHit& hit, size_t ray) {
     Incoming in;
+    LobeMoment narrow, broad;
     const uint32_t instance = input_.instanceOf[hit.triangle];
     const MaterialHandle material = scene_.instances[instance].material;
     in.narrowClass = classOf(material, input_.data.classCount);
@@ -320,11 +336,12 @@ class BouncePass {
       const auto& glossy = input_.data.passes[before_].glossy;
       input_.lookup.glossy(view, before_, {byClass.data(), glossy.size()});
       for (size_t c = 0; c < glossy.size(); ++c)
-        add(before_ > 0 && c + 1 == glossy.size() ? &in.broad : &in.narrow, byClass[c]);
+        add(before_ > 0 && c + 1 == glossy.size() ? &broad : &narrow, byClass[c]);
     }
     if (luminance(own.diffuse) > 0 && !input_.diffuseBefore.empty())
-      add(&in.broad, diffuseOf(around, own.diffuse));
-    if (in.narrow.alpha != Rgb{} || in.broad.alpha != Rgb{}) any_ = true;
+      add(&broad, diffuseOf(around, own.diffuse));
+    if (narrow.alpha != Rgb{} || broad.alpha != Rgb{}) any_ = true;
+    in.narrow = numbersOf(narrow), in.broad = numbersOf(broad);
     return in;
   }
 
@@ -367,18 +384,18 @@ class BouncePass {
       if (lanesOf(blocked_, c) != 0) chunks_.push_back(c);
     if (chunks_.empty()) return;
     const float* w = weights_.evaluate(part, wo, chunks_);
-    std::array<LobeTotal, kMostClasses + 1> totals;
+    std::array<Numbers, kMostClasses + 1> totals{};
     for (size_t j = 0; j < chunks_.size(); ++j, w += kLanes) {
       const Incoming* in = &incoming_[firstHit_[chunks_[j]]];
       for (uint32_t lanes = lanesOf(blocked_, chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
         const auto l = static_cast<size_t>(std::countr_zero(lanes));
         const float weight = w[l] * sphere_->solidAngle[chunks_[j] * kLanes + l];
-        totals[static_cast<size_t>(in->narrowClass)].add(weight, in->narrow);
-        totals[classes_].add(weight, in->broad);
+        addTo(&totals[static_cast<size_t>(in->narrowClass)], weight, in->narrow);
+        addTo(&totals[classes_], weight, in->broad);
       }
     }
     for (size_t c = 0; c <= classes_; ++c) {
-      const TransferLobe lobe = totals[c].lobe(slice.weight);
+      const TransferLobe lobe = lobeOf(totals[c], slice.weight);
       if (!isFinite(lobe.share) || !isFinite(lobe.r)) {
         ++counts_.nonFinite;
       } else if (maxComponent(lobe.share) >= kLeastShare) {
@@ -391,7 +408,7 @@ class BouncePass {
   void diffuse(const Vertex& vertex, float all) {
     DiffuseLobes lobes{};
     if (all > 0 && any_) {
-      std::array<LobeTotal, kOctants> octants;
+      std::array<Numbers, kOctants> octants{};
       const Vec3f wo = vertex.normal();
       const Bsdf part = diffusePart(vertex.bsdf(wo));
       chunks_.clear();
@@ -403,12 +420,12 @@ class BouncePass {
         for (uint32_t lanes = lanesOf(blocked_, chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
           const auto l = static_cast<size_t>(std::countr_zero(lanes));
           const float weight = w[l] * sphere_->solidAngle[chunks_[j] * kLanes + l];
-          octants[octantOf(in->narrow.first)].add(weight, in->narrow);
-          octants[octantOf(in->broad.first)].add(weight, in->broad);
+          addTo(&octants[octantOf(in->narrow)], weight, in->narrow);
+          addTo(&octants[octantOf(in->broad)], weight, in->broad);
         }
       }
       for (size_t o = 0; o < kOctants; ++o) {
-        const TransferLobe lobe = octants[o].lobe(all);
+        const TransferLobe lobe = lobeOf(octants[o], all);
         if (isFinite(lobe.share) && isFinite(lobe.r))
           lobes[o] = pack(lobe);
         else
