@@ -35,7 +35,7 @@ size_t slotsOfFirstFit(const test::RandomRows& rows) {
 }
 
 TEST(RowDisplacement, FindsWhatIsStoredAndNothingElse) {
-  for (const size_t columns : {1, 42, 64, 162, 642})
+  for (const size_t columns : {1u, 42u, 64u, 162u, 642u})
     for (const int runs : {0, 1, 4}) {
       const test::RandomRows rows = test::randomRows(120, columns, 0.16f, runs, columns);
       const RowDisplacement packed(rows.rows);

@@ -15,7 +15,7 @@ std::vector<SliceRecord> copy(std::span<const SliceRecord> records) {
 }
 
 TEST(SliceRows, FindWhatIsStoredAndNothingElse) {
-  for (const size_t columns : {1, 63, 64, 65, 642, 2562}) {
+  for (const size_t columns : {1u, 63u, 64u, 65u, 642u, 2562u}) {
     const test::RandomRows rows = test::randomRows(60, columns, 0.2f, 0, columns);
     EXPECT_TRUE(test::findsAll(rows.rows, rows)) << columns;
     EXPECT_EQ(rows.rows.rowCount(), 60u);

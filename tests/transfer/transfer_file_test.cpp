@@ -221,7 +221,7 @@ TEST_F(TransferFile, HasARowOfReflectionForEveryVertex) {
   const TransferData back = load(file_, *scene_);
   ASSERT_EQ(back.reflection.rowCount(), back.mesh.vertices.size());
   for (size_t v = 0; v < back.mesh.vertices.size(); ++v)
-    for (const size_t k : {0, 100, 161}) ASSERT_EQ(back.reflection.find(v, k), nullptr);
+    for (const size_t k : {0u, 100u, 161u}) ASSERT_EQ(back.reflection.find(v, k), nullptr);
 }
 
 }  // namespace
