@@ -64,8 +64,8 @@ Rgb FrameTile::radiance(const FrameInput& input, const TilePixel& pixel) {
   if (!pixel.hit)
     return hidden ? Rgb{} : input.emitters.escaped(normalize(light.toLight * pixel.ray.d));
   const SurfacePoint at = surfacePoint(input.tracer.scene(), *pixel.hit);
-  const Vec3f wo = -pixel.ray.d;
-  Rgb sum = at.emitter.valid() && !hidden ? input.emitters.emitted(at, wo) : Rgb{};
+  const Vec3f wo = aboveHorizon(-pixel.ray.d, at);
+  Rgb sum = at.emitter.valid() && !hidden ? input.emitters.emitted(at, -pixel.ray.d) : Rgb{};
   Reflection own;
   if (!reflectionAt(input, at, wo, &own)) return sum;
   if (own.diffuse != Rgb{}) {

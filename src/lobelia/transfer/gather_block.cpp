@@ -13,6 +13,9 @@ namespace {
 // it for nothing: a thousandth of a surface's own reflection.
 constexpr float kLeastShare = 1e-3f;
 
+// Cosine below which an interpolated normal may face away where its surface does not.
+constexpr float kGrazing = 0.02f;
+
 constexpr size_t kLanes = relight::kChunk;
 constexpr uint32_t kAllLanes = (1u << kLanes) - 1;
 
@@ -370,10 +373,14 @@ class BouncePass {
       for (size_t i = 0; i < 3; ++i)
         n += input_.data.mesh.vertices[around.vertex[i]].n * around.weight[i];
       const float size = length(n);
+      if (size > 0 && dot(n, wo) < kGrazing * size)
+        wo = aboveHorizon(wo, surfacePoint(scene_, hit));
       if (!(size > 0) || !input_.tables.summary(material, n / size, wo, &own)) return {};
       return own;
     }
-    return reflectionOf(makeBsdf(scene_, surfacePoint(scene_, hit), wo, 0), wo);
+    const SurfacePoint at = surfacePoint(scene_, hit);
+    wo = aboveHorizon(wo, at);
+    return reflectionOf(makeBsdf(scene_, at, wo, 0), wo);
   }
 
   void slice(const Vertex& vertex, const SeeingSlice& slice) {

@@ -10,7 +10,15 @@ constexpr float kHorizon = 0.01f;
 
 Vec3f mirrored(Vec3f d, Vec3f n) { return n * (2 * dot(n, d)) - d; }
 
+Vec3f lifted(Vec3f wo, Vec3f n) { return normalize(wo + n * (kHorizon - dot(n, wo))); }
+
 }  // namespace
+
+Vec3f aboveHorizon(Vec3f wo, const SurfacePoint& at) {
+  const float side = dot(at.ng, wo) < 0 ? -1.f : 1.f;
+  const Vec3f n = at.frame.n * side;
+  return dot(n, wo) < kHorizon && dot(at.frame.n, at.ng) > 0 ? lifted(wo, n) : wo;
+}
 
 SliceLookup::SliceLookup(const Scene& scene, const TransferData& data,
                          const ReflectionTables& tables)
@@ -31,7 +39,7 @@ VertexView SliceLookup::view(uint32_t vertex, Vec3f wo, const GridPlace& place) 
   const bool behind = out.material.valid() && reflectsBehind_[out.material.index] != 0;
   if (cosine < 0 && behind) out.n = -out.n, cosine = -cosine;
   if (cosine < kHorizon) {
-    out.wo = normalize(wo + out.n * (kHorizon - cosine));
+    out.wo = lifted(wo, out.n);
     out.place = grid_.locate(out.wo);
   }
   out.mirror = mirrored(out.wo, out.n);

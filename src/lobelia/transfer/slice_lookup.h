@@ -12,6 +12,10 @@
 
 namespace lobelia::transfer {
 
+// wo, or where it is in front of a place's surface and behind its interpolated normal, which
+// happens along silhouettes, the direction just above the horizon next to it.
+Vec3f aboveHorizon(Vec3f wo, const SurfacePoint& at);
+
 // A vertex as it is seen from somewhere.
 struct VertexView {
   uint32_t vertex = 0;
