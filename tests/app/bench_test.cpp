@@ -182,6 +182,24 @@ TEST(BenchVsgl, TimesAndCuts) {
   EXPECT_GT(cuts[6]["gathered"], cuts[0]["gathered"]);
 }
 
+TEST(BenchVmf, DataAndBounces) {
+  const TemporaryFolder folder;
+  const json result = runBench(
+      "vmf --scene teapot-32 --detail 0.05 --pixels 1 --size 32x24 --spp 32 "
+      "--figures table1,hash,1 -o " +
+      folder.path());
+  const json& table = result["table1"];
+  expectNumbers(table, 1, {"vertices", "density", "mb", "file_mb", "masks", "seconds", "fps"});
+  EXPECT_EQ(table[0]["paper_mb"], 413.3);
+  const json& hash = result["hash"];
+  expectNumbers(hash, 1, {"mrecords", "density", "slots", "displaced_mb", "rows_mb"});
+  EXPECT_GE(hash[0]["slots"], 1);
+  const json& bounces = result["figure1"];
+  expectNumbers(bounces, 3, {"mean_ratio"});  // so coarse a mesh loses bounces
+  EXPECT_NEAR(bounces[0]["mean_ratio"].get<double>(), 1, 0.08) << "direct light";
+  expectPictures(folder, "vmf", {"figure1-teapot-32-0", "figure1-teapot-32-2-path"});
+}
+
 TEST(BenchCuts, DataAndError) {
   const TemporaryFolder folder;
   const json result = runBench(

@@ -34,6 +34,8 @@ constexpr Study kStudies[] = {
     {"sglc", "spherical-Gaussian lightcuts: table 2 and figures 4 to 9 of their paper", benchSglc,
      sglcFigures},
     {"cuts", "visibility cuts: figures 5, 6 and 8 to 10 of their paper", benchCuts, cutsFigures},
+    {"vmf", "multi-bounce glossy transfer: table 1 and figures 1 to 4 of its paper", benchVmf,
+     vmfFigures},
 };
 
 std::vector<std::string> studyNames() {
@@ -79,12 +81,12 @@ void requireOptions(const Study& study, const BenchOptions& options) {
   if (study.figures != nullptr) return;
   if (options.scenes.size() > 1) {
     throw UsageError(fmt::format(
-        "bench {} takes one --scene; vsl, vsgl, sglc and cuts take several", options.name));
+        "bench {} takes one --scene; vsl, vsgl, sglc, cuts and vmf take several", options.name));
   }
   if (!options.output.empty() || !options.figures.empty()) {
-    throw UsageError(
-        fmt::format("bench {} has no use for --output or --figures; vsl, vsgl, sglc and cuts have",
-                    options.name));
+    throw UsageError(fmt::format(
+        "bench {} has no use for --output or --figures; vsl, vsgl, sglc, cuts and vmf have",
+        options.name));
   }
 }
 
@@ -117,15 +119,17 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
       ->required();
   c.add_option("--scene", o.scenes,
                "Run the study on this scene file or built-in scene instead of its own; vsl, vsgl, "
-               "sglc and cuts take several")
+               "sglc, cuts and vmf take several")
       ->type_name("FILE|SCENE")
       ->allow_extra_args(false);
-  c.add_option("-o,--output", o.output,
-               "vsl, vsgl, sglc, cuts: folder for pictures and for a page that shows them with the "
-               "tables; without "
-               "it vsl renders only the pixels compared")
+  c.add_option(
+       "-o,--output", o.output,
+       "vsl, vsgl, sglc, cuts, vmf: folder for pictures and for a page that shows them with the "
+       "tables; without "
+       "it vsl renders only the pixels compared")
       ->type_name("FOLDER");
-  c.add_option("--figures", o.figures, "vsl, vsgl, sglc, cuts: figures of the study; default: all")
+  c.add_option("--figures", o.figures,
+               "vsl, vsgl, sglc, cuts, vmf: figures of the study; default: all")
       ->type_name("LIST")
       ->check(offered(figureNames()));
   c.add_option("--methods", o.methods,
@@ -149,7 +153,7 @@ void addBenchOptions(CLI::App& c, BenchOptions& o) {
   c.add_option("--size", o.size, "WxH in pixels")->type_name("WxH");
   c.add_option("--pixels", o.pixels,
                "clamp, convergence, vsl, vsgl, sglc: pixels compared, spread over the image; cuts: "
-               "vertices of figures 5 and 8")
+               "vertices of figures 5 and 8; vmf: most vertices that subdivision may leave")
       ->type_name("N")
       ->check(integerRange(1, int64_t{1} << 32));
   c.add_option("--max-depth", o.maxDepth, "As for render; default: the scene's, else unlimited")

@@ -23,5 +23,7 @@ const std::vector<std::string>& sglcMethodKeys();  // what --methods may name
 std::vector<BenchTable> benchSglc(const BenchOptions& options, Context& context);
 const std::vector<std::string>& cutsFigures();
 std::vector<BenchTable> benchCuts(const BenchOptions& options, Context& context);
+const std::vector<std::string>& vmfFigures();
+std::vector<BenchTable> benchVmf(const BenchOptions& options, Context& context);
 
 }  // namespace lobelia::app

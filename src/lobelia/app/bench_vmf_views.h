@@ -1,0 +1,61 @@
+// Pictures from transfer data beside those of the path tracer, from several sides of a scene.
+// Pixels of objects are compared: the environment itself is no result of either.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "lobelia/app/bench_vmf.h"
+#include "lobelia/film/metrics.h"
+#include "lobelia/transfer/frame.h"
+
+namespace lobelia::app {
+
+// Over views.
+struct VmfError {
+  double l2 = 0, meanRatio = 0;
+};
+
+class VmfViews {
+ public:
+  static constexpr int kBounces = 2;        // of the data, as in the paper
+  static constexpr int kFrameSamples = 16;  // of a pixel's filter
+  static constexpr int kPathSamples = 512;  // in two halves
+  static constexpr size_t kViews = 3;       // a third of a turn apart
+
+  VmfViews(const std::string& name, const VmfStudy& study);
+
+  const Tracer& tracer() const { return scene_->tracer(); }
+  const Scene& scene() const { return tracer().scene(); }
+  const Camera& camera(size_t view) const { return cameras_[view]; }
+  int samples() const { return samples_; }
+  std::string note() const;
+
+  // By the scene's light, before frames.
+  void light(transfer::TransferRenderer* renderer) const {
+    renderer->relight(scene_->emitters(), study_.context);
+  }
+  // The picture of passes [first, end) from one side.
+  Film frame(transfer::TransferRenderer& renderer, size_t view, int first, int end);
+  // Light of at most that many reflections before the last, and of just as many.
+  const Reference& path(size_t view, int bounces);
+  Reference pathOfBounce(size_t view, int bounce);
+  // Against the path tracer, all passes of the data.
+  VmfError error(const transfer::TransferData& data);
+  Comparison compared(const Film& film, size_t view, const Reference& path) const {
+    return compare(film, path.first, &path.second, &objects_[view]);
+  }
+
+ private:
+  std::unique_ptr<BenchScene> sceneOf(int bounces) const;
+
+  const std::string name_;
+  const VmfStudy& study_;
+  const int samples_;
+  std::unique_ptr<BenchScene> scene_;
+  std::vector<Camera> cameras_;
+  std::vector<Film> objects_;
+  std::map<std::pair<size_t, int>, Reference> paths_;
+};
+
+}  // namespace lobelia::app
