@@ -71,9 +71,9 @@ class Subdivider {
     }
     if (!whole)
       context_.warning(fmt::format(
-          "subdivision by visibility stops at {} vertices, as many as are allowed: reflections "
-          "where surfaces come close will be less sharp",
-          settings_.mostVertices));
+          "subdivision by visibility stops at {} vertices, for it may leave {}: shadows and "
+          "reflections where surfaces come close will be less sharp",
+          mesh_.positions().size(), settings_.mostVertices));
     return std::move(mesh_);
   }
 

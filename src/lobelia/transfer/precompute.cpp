@@ -236,12 +236,14 @@ class Precomputation {
   void requireBudget(const char* stage, size_t blocksDone) const {
     const uint64_t bytes = data_.byteCount();
     if (bytes <= budget_) return;
+    const size_t vertices = data_.mesh.vertices.size();
+    const size_t done = std::min(blocksDone * kBlock, vertices);
+    const auto kilobytes = [](uint64_t b) { return (b + 1023) / 1024; };
     throw RuntimeError(fmt::format(
-        "{} of {} vertices in, {} have {:.0f} MB of transfer, more than --memory {:.0f} MB; fewer "
-        "--directions or --bounces or a coarser mesh (--subdivide, --mask-tolerance) take less",
-        stage, data_.mesh.vertices.size(),
-        std::min(blocksDone * kBlock, data_.mesh.vertices.size()),
-        static_cast<double>(bytes) * 1e-6, static_cast<double>(budget_) * 1e-6));
+        "--memory {}K is too little: {} of {} vertices already have {}K of transfer ({}); give "
+        "more, or take fewer --directions or --bounces or a coarser mesh (--max-vertices, "
+        "--subdivide)",
+        kilobytes(budget_), done, vertices, kilobytes(bytes), stage));
   }
 
   void report() const {
