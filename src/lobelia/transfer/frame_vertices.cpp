@@ -1,5 +1,7 @@
 #include "lobelia/transfer/frame_vertices.h"
 
+#include <algorithm>
+
 #include "lobelia/transfer/resultant.h"
 
 namespace lobelia::transfer {
@@ -85,7 +87,8 @@ Rgb FrameVertices::diffuseLight(uint32_t vertex) {
     // Direct light: octants say which part of what would arrive does.
     const Rgb whole = lightOf(light_->unoccluded[vertex]);
     const Rgb exact = light_->irradiance.at(light_->toLight * data_->mesh.vertices[vertex].n);
-    for (int c = 0; c < 3; ++c) sum[c] += whole[c] > 0 ? light[c] / whole[c] * exact[c] : light[c];
+    for (int c = 0; c < 3; ++c)
+      sum[c] += whole[c] > 0 ? std::min(light[c] / whole[c], 1.f) * exact[c] : light[c];
   }
   return sum;
 }
