@@ -1,7 +1,7 @@
 #include "lobelia/relight/frame.h"
 
-#include "lobelia/path/receivers.h"
 #include "lobelia/relight/frame_tile.h"
+#include "lobelia/relight/tile_counts.h"
 #include "lobelia/relight/tile_pool.h"
 
 namespace lobelia::relight {
@@ -24,23 +24,11 @@ const VisibilityData& requireEnvironment(const VisibilityData& data) {
 }
 
 void addCounts(const TileCounts& counts, uint64_t pixels, double seconds, Context& context) {
+  addTileCounts(counts, pixels, seconds, context);
   Statistics& s = context.statistics;
-  const auto spent = static_cast<double>(counts.bufferNs + counts.mergeNs + counts.shadeNs);
-  const auto share = [&](int64_t ns) {
-    return spent > 0 ? seconds * static_cast<double>(ns) / spent : 0;
-  };
-  s.addSeconds("buffer", share(counts.bufferNs));
-  s.addSeconds("merge", share(counts.mergeNs));
-  s.addSeconds("shade", share(counts.shadeNs));
-  s.addCount("frames", 1);
-  s.addCount("pixels", pixels);
-  s.addCount("object_pixels", counts.objectPixels);
-  s.addCount("vertices_merged", counts.vertices);
   s.addCount("merged_nodes", counts.mergedNodes);
   s.addCount("evaluations", counts.pixels.evaluations);
   s.addCount("fine_chunks", counts.pixels.fineChunks);
-  s.addCount("nonfinite", counts.nonFinite);
-  if (counts.firstBad) noteNonFinitePixel(*counts.firstBad, context);
 }
 
 }  // namespace

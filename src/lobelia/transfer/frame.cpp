@@ -3,8 +3,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "lobelia/path/receivers.h"
 #include "lobelia/relight/frame.h"
+#include "lobelia/relight/tile_counts.h"
 #include "lobelia/relight/tile_pool.h"
 #include "lobelia/transfer/frame_tile.h"
 
@@ -12,21 +12,9 @@ namespace lobelia::transfer {
 namespace {
 
 void addCounts(const TileCounts& counts, uint64_t pixels, double seconds, Context& context) {
+  relight::addTileCounts(counts, pixels, seconds, context);
   Statistics& s = context.statistics;
-  const auto spent = static_cast<double>(counts.bufferNs + counts.mergeNs + counts.shadeNs);
-  const auto share = [&](int64_t ns) {
-    return spent > 0 ? seconds * static_cast<double>(ns) / spent : 0;
-  };
-  s.addSeconds("buffer", share(counts.bufferNs));
-  s.addSeconds("merge", share(counts.mergeNs));
-  s.addSeconds("shade", share(counts.shadeNs));
-  s.addCount("frames", 1);
-  s.addCount("pixels", pixels);
-  s.addCount("object_pixels", counts.objectPixels);
-  s.addCount("vertices_merged", counts.vertices);
   s.addCount("light_lookups", counts.lightLookups);
-  s.addCount("nonfinite", counts.nonFinite);
-  if (counts.firstBad) noteNonFinitePixel(*counts.firstBad, context);
 }
 
 size_t passNumber(int pass, const TransferData& data) {
