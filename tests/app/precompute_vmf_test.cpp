@@ -104,6 +104,17 @@ bool interrupted(const std::string& arguments, const std::string& folder, int fi
   return WIFEXITED(status) && WEXITSTATUS(status) == 130;
 }
 
+TEST_F(PrecomputeVmf, AFullDiskLeavesWhatIsDone) {
+  const std::string work = folder_ / "work";
+  const std::string run = quick_ + "--subdivide 0 --bounces 1 --work " + work + " -o ";
+  expectFailure(run + "/dev/full", 1, "cannot write /dev/full");
+  EXPECT_FALSE(std::filesystem::is_empty(work));
+  const ProgramResult r = runProgram(run + (folder_ / "a.vmf"));
+  EXPECT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_NE(r.err.find("going on from"), std::string::npos) << r.err;
+  EXPECT_FALSE(std::filesystem::exists(work));
+}
+
 TEST_F(PrecomputeVmf, GoesOnWhereItWasStopped) {
   const std::string work = folder_ / "work", said = folder_ / "said";
   const std::string run =

@@ -111,12 +111,12 @@ void precomputeVmf(const PrecomputeOptions& options, Context& context) {
   const int64_t start = nanosecondsNow();
   const Scene scene = loadScene(options.scene, context);
   const Tracer tracer(scene, context);
-  const TransferSettings settings = settingsOf(options, scene);
-  const TransferData data = transfer::precomputeTransfer(tracer, settings, context);
-  {
+  TransferSettings settings = settingsOf(options, scene);
+  settings.keep = [&](const TransferData& data) {
     const StageTimer timer(context, "save");
     transfer::save(data, scene, options.output);
-  }
+  };
+  const TransferData data = transfer::precomputeTransfer(tracer, settings, context);
   context.statistics.addSeconds("total", static_cast<double>(nanosecondsNow() - start) * 1e-9);
   context.info(summary(options, data, context));
   if (const uint64_t bad = context.statistics.count("nonfinite"); bad > 0)

@@ -92,6 +92,7 @@ class Precomputation {
       bounce(input, j);
     }
     report();
+    if (settings_.keep) settings_.keep(data_);
     store_.finish();
     return std::move(data_);
   }

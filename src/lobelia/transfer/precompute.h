@@ -1,6 +1,7 @@
 // Precomputation of transfer, from the adaptive mesh to all passes [P002 sections 5, 6].
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "lobelia/base/context.h"
@@ -24,6 +25,10 @@ struct TransferSettings {
   // Folder for what is done so far, from which a run that was stopped goes on; made if it is not
   // there, emptied and removed at the end. "": none.
   std::string workFolder;
+  // Called with the data when they are whole, before the work folder is removed: what it throws
+  // leaves the folder as it is, so that a disk that was full when saving costs nothing. May be
+  // null.
+  std::function<void(const TransferData&)> keep;
 };
 
 // No randomness. Throws Cancelled when the context is (what is done stays in the work folder),
