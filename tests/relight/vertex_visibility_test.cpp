@@ -25,8 +25,7 @@ struct Stage {
         triangles(leafTriangles(mesh)),
         samples(kind == LightSamples::Kind::environment ? environmentSamples(count, 1)
                                                         : surfaceSamples(scene, count, 1)) {
-    for (const Instance& i : scene.instances)
-      bothSides.push_back(scattersBehind(scene, i.material) ? 1 : 0);
+    bothSides = bothSidesOf(scene);
     faces.emplace(scene, mesh, triangles, bothSides);
   }
   int levels() const { return std::countr_zero(samples.count()); }

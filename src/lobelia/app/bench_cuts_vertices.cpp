@@ -20,10 +20,7 @@ float diagonalOf(const Tracer& tracer) {
 }
 
 relight::VertexFaces facesOf(const Scene& scene, const relight::SampleMesh& mesh) {
-  std::vector<uint8_t> bothSides;
-  for (const Instance& instance : scene.instances)
-    bothSides.push_back(relight::scattersBehind(scene, instance.material) ? 1 : 0);
-  return {scene, mesh, relight::leafTriangles(mesh), bothSides};
+  return {scene, mesh, relight::leafTriangles(mesh), relight::bothSidesOf(scene)};
 }
 
 }  // namespace

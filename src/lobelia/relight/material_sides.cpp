@@ -53,6 +53,12 @@ bool reachesBehind(const Scene& scene, MaterialHandle handle, bool twoSided, int
 bool scattersBehind(const Scene& scene, MaterialHandle material) {
   return reachesBehind(scene, material, true, 0);
 }
+std::vector<uint8_t> bothSidesOf(const Scene& scene) {
+  std::vector<uint8_t> out;
+  for (const Instance& instance : scene.instances)
+    out.push_back(scattersBehind(scene, instance.material) ? 1 : 0);
+  return out;
+}
 bool transmits(const Scene& scene, MaterialHandle material) {
   return reachesBehind(scene, material, false, 0);
 }

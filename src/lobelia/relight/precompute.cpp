@@ -62,8 +62,7 @@ VisibilityData precomputeVisibility(const Tracer& tracer, const PrecomputeSettin
   const Scene& scene = tracer.scene();
   const float diagonal = std::max(length(tracer.bounds().extent()), 1e-20f);
   VisibilityData data;
-  for (const Instance& instance : scene.instances)
-    data.bothSides.push_back(scattersBehind(scene, instance.material) ? 1 : 0);
+  data.bothSides = bothSidesOf(scene);
   data.samples = lightSamples(scene, settings, diagonal, context);
   data.mesh = sampleMesh(tracer, data.samples, data.bothSides, settings, context);
   const size_t vertexCount = data.mesh.positions().size();

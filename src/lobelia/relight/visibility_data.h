@@ -26,6 +26,8 @@ struct VisibilityData {
 
 // Does the material scatter light that arrives from behind the surface (two-sided, transmitting)?
 bool scattersBehind(const Scene& scene, MaterialHandle material);
+// The same by instance, 0 or 1: VertexFaces wants it so.
+std::vector<uint8_t> bothSidesOf(const Scene& scene);
 // Does it let light through?
 bool transmits(const Scene& scene, MaterialHandle material);
 

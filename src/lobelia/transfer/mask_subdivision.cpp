@@ -47,10 +47,8 @@ class Subdivider {
         settings_(settings),
         context_(context),
         directions_(settings.level),
-        diagonal_(length(tracer.bounds().extent())) {
-    for (const Instance& instance : tracer.scene().instances)
-      bothSides_.push_back(relight::scattersBehind(tracer.scene(), instance.material) ? 1 : 0);
-  }
+        diagonal_(length(tracer.bounds().extent())),
+        bothSides_(relight::bothSidesOf(tracer.scene())) {}
 
   SampleMesh run() {
     for (int i = 0; i < kLongRounds; ++i) {
@@ -182,8 +180,8 @@ class Subdivider {
   Context& context_;
   const MaskDirections directions_;
   const float diagonal_;
-  std::vector<uint8_t> bothSides_;  // by instance
-  size_t firstNew_ = 0;             // vertices from here on were added by the last round
+  const std::vector<uint8_t> bothSides_;  // by instance
+  size_t firstNew_ = 0;                   // vertices from here on were added by the last round
   std::vector<LeafTriangle> triangles_;
   relight::EdgeTable table_;
   std::vector<PackedMask> masks_;  // by vertex; empty: not there

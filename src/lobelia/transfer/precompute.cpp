@@ -45,13 +45,6 @@ uint64_t budgetOf(const TransferSettings& settings) {
          static_cast<uint64_t>(sysconf(_SC_PAGE_SIZE)) / 4 * 3;
 }
 
-std::vector<uint8_t> bothSidesOf(const Scene& scene) {
-  std::vector<uint8_t> out;
-  for (const Instance& instance : scene.instances)
-    out.push_back(relight::scattersBehind(scene, instance.material) ? 1 : 0);
-  return out;
-}
-
 std::vector<uint32_t> instanceOfTriangles(const relight::SampleMesh& mesh) {
   std::vector<uint32_t> out;
   for (uint32_t i = 0; i + 1 < mesh.firstTriangle().size(); ++i)
@@ -73,9 +66,9 @@ class Precomputation {
 
   TransferData run() {
     makeMesh();
-    const std::vector<uint8_t> bothSides = bothSidesOf(tracer_.scene());
     const relight::VertexFaces faces(tracer_.scene(), data_.mesh.mesh,
-                                     relight::leafTriangles(data_.mesh.mesh), bothSides);
+                                     relight::leafTriangles(data_.mesh.mesh),
+                                     relight::bothSidesOf(tracer_.scene()));
     const std::vector<uint32_t> instanceOf = instanceOfTriangles(data_.mesh.mesh);
     data_.directionLevel = settings_.directionLevel;
     data_.classCount = settings_.classCount;

@@ -244,11 +244,8 @@ TransferData scatterTransfer(const Tracer& tracer, TransferMesh mesh,
   data.classCount = settings.classCount;
   data.mesh = std::move(mesh);
   data.passes.resize(static_cast<size_t>(settings.bounces) + 1);
-  std::vector<uint8_t> bothSides;
-  for (const Instance& instance : scene.instances)
-    bothSides.push_back(relight::scattersBehind(scene, instance.material) ? 1 : 0);
   const relight::VertexFaces faces(scene, data.mesh.mesh, relight::leafTriangles(data.mesh.mesh),
-                                   bothSides);
+                                   relight::bothSidesOf(scene));
   const ReflectionTables tables(scene);
   const GeodesicGrid directions(settings.directionLevel);
   const ScatterInput input{tracer,
