@@ -112,7 +112,8 @@ class Bird : SceneBuilder {
     for (const double z : {0.168, -0.168}) {
       place(eye, translation({0.452, 1.025, z}), jet, z > 0 ? "left eye" : "right eye");
     }
-    place(add(table(), "table"), Mat4{}, wood, "table");
+    place(add(roundSlab(1.5f, 0.10f, 0.03f, segments(4, 1), segments(60, 4)), "table"),
+          translation({0, -0.10, 0}), wood, "table");
     addHallLight(*this, 75);
     addCamera("front", {1.55, 1.45, 2.75}, {0, 0.50, 0}, 36, 800, 600);
     addCamera("back", {-2.1, 1.75, 2.0}, {-0.05, 0.55, 0}, 36, 800, 600);
@@ -122,21 +123,6 @@ class Bird : SceneBuilder {
   }
 
  private:
-  // A round slab whose rings lie closer under the bird.
-  Mesh table() const {
-    constexpr float kRadius = 1.5f, kEdge = 0.03f;
-    const int rings = segments(26, 4);
-    std::vector<Vec2f> profile = {
-        {0, -0.10f}, {kRadius - kEdge, -0.10f}, {kRadius, -0.10f + kEdge}};
-    const int bend = segments(4, 1);
-    for (int i = 0; i <= bend; ++i) {
-      const float a = 0.5f * kPi * fraction(i, bend);
-      profile.push_back({kRadius - kEdge * (1 - std::cos(a)), -kEdge * (1 - std::sin(a))});
-    }
-    for (int i = rings - 1; i >= 0; --i)
-      profile.push_back({(kRadius - kEdge) * std::pow(fraction(i, rings), 1.3f), 0});
-    return lathe(profile, segments(110, 12));
-  }
   void addPart(Mesh mesh, MaterialHandle material, const char* name) {
     place(add(std::move(mesh), name), Mat4{}, material, name);
   }

@@ -25,7 +25,7 @@ class Dragon : SceneBuilder {
                                  "stone");
     place(add(dragonStatue(segments(113, 24), 0.042f / std::min(detail(), 1.f)), "dragon"),
           rotation({0, 1, 0}, -32), skin, "dragon");
-    place(add(refined(roundedBox({1.35f, 0.07f, 1.05f}, 0.03f, segments(4, 1)), 0.2f / detail()),
+    place(add(refined(roundedBox({1.35f, 0.07f, 1.05f}, 0.03f, segments(4, 1)), 0.07f / detail()),
               "base"),
           translation({0, -0.07, 0}), stone, "base");
     addHallLight(*this, 60);

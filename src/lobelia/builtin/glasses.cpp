@@ -5,6 +5,7 @@
 
 #include "lobelia/builtin/hall_light.h"
 #include "lobelia/builtin/makers.h"
+#include "lobelia/builtin/refine.h"
 #include "lobelia/builtin/scene_builder.h"
 #include "lobelia/builtin/shapes.h"
 #include "lobelia/builtin/solids.h"
@@ -18,7 +19,8 @@ class Glasses : SceneBuilder {
 
   Scene make() {
     const MaterialHandle table = add(phong(Rgb(0.09f, 0.08f, 0.075f), Rgb(0.55f), 256), "table");
-    place(add(roundedBox({2.4f, 0.06f, 1.7f}, 0.02f, segments(6, 1)), "table"),
+    place(add(refined(roundedBox({2.4f, 0.06f, 1.7f}, 0.02f, segments(6, 1)), 0.14f / detail()),
+              "table"),
           translation({0, -0.06, 0}), table, "table");
     addVessels();
     addHallLight(*this, 70);

@@ -72,7 +72,10 @@ Mesh lathe(const std::vector<Vec2f>& profile, int segments, float creaseDegrees)
                  std::max(creaseDegrees, 1.1f * 360 / static_cast<float>(segments)));
 }
 
-Mesh cylinder(float radius, float height, float bevel, int bevelSegments, int segments) {
+namespace {
+
+// From the middle below to the edge of the top.
+std::vector<Vec2f> cylinderProfile(float radius, float height, float bevel, int bevelSegments) {
   std::vector<Vec2f> profile{{0, 0}};
   for (int i = 0; i <= bevelSegments; ++i) {
     const float a = kPi / 2 * fraction(i, bevelSegments);
@@ -82,8 +85,54 @@ Mesh cylinder(float radius, float height, float bevel, int bevelSegments, int se
     const Vec2f p = profile[static_cast<size_t>(1 + i)];
     profile.push_back({p.x, height - p.y});
   }
+  return profile;
+}
+
+// Between rings of 6 (k - 1) and 6 k points, whose first ones are `inner` and `outer`: each sixth
+// has one triangle more that stands on the outer ring.
+void addRing(Mesh* mesh, uint32_t inner, uint32_t outer, uint32_t k) {
+  const uint32_t innerCount = 6 * (k - 1), outerCount = 6 * k;
+  const auto in = [&](uint32_t i) { return inner + (innerCount > 0 ? i % innerCount : 0); };
+  const auto out = [&](uint32_t i) { return outer + i % outerCount; };
+  for (uint32_t sixth = 0; sixth < 6; ++sixth)
+    for (uint32_t i = 0; i < k; ++i) {
+      const uint32_t o = sixth * k + i, n = sixth * (k - 1) + i;
+      mesh->triangles.push_back({in(n), out(o), out(o + 1)});
+      if (i + 1 < k) mesh->triangles.push_back({in(n), out(o + 1), in(n + 1)});
+    }
+}
+
+// Facing up at this height.
+Mesh discOfRings(float radius, float height, int rings) {
+  constexpr float kCrowding = 1.3f;
+  Mesh mesh;
+  mesh.positions.push_back({0, height, 0});
+  for (int k = 1; k <= rings; ++k) {
+    const float r = k == rings ? radius : radius * std::pow(fraction(k, rings), kCrowding);
+    const uint32_t outer = static_cast<uint32_t>(mesh.positions.size());
+    const uint32_t ring = static_cast<uint32_t>(k), inner = k == 1 ? 0 : outer - 6 * (ring - 1);
+    for (int j = 0; j < 6 * k; ++j) {
+      const Vec2f c = circle(j, 6 * k);
+      mesh.positions.push_back({r * c.x, height, -r * c.y});
+    }
+    addRing(&mesh, inner, outer, ring);
+  }
+  for (const Vec3f p : mesh.positions)
+    mesh.uvs.push_back(Vec2f(p.x + radius, p.z + radius) * (0.5f / radius));
+  return creased(std::move(mesh), 180);
+}
+
+}  // namespace
+
+Mesh cylinder(float radius, float height, float bevel, int bevelSegments, int segments) {
+  std::vector<Vec2f> profile = cylinderProfile(radius, height, bevel, bevelSegments);
   profile.push_back({0, height});
   return lathe(profile, segments);
+}
+
+Mesh roundSlab(float radius, float height, float bevel, int bevelSegments, int rings) {
+  const std::vector<Vec2f> profile = cylinderProfile(radius, height, bevel, bevelSegments);
+  return merged({lathe(profile, 6 * rings), discOfRings(profile.back().x, height, rings)});
 }
 
 Mesh ball(float radius, int rows, int segments) {

@@ -28,6 +28,9 @@ Mesh loft(const std::vector<Ring>& rings, bool startCap, bool endCap, float crea
 Mesh lathe(const std::vector<Vec2f>& profile, int segments, float creaseDegrees = 35);
 // Of radius and height, standing on y = 0, its edges rounded.
 Mesh cylinder(float radius, float height, float bevel, int bevelSegments, int segments);
+// The same, its top in triangles that are about as wide as long: rings of 6, 12, 18... of them,
+// closer in the middle (radii to the power 1.3), for methods that keep something at vertices.
+Mesh roundSlab(float radius, float height, float bevel, int bevelSegments, int rings);
 Mesh ball(float radius, int rows, int segments);
 // Flat, facing up at y = 0; inner > 0: with a hole.
 Mesh disc(float radius, int segments, float inner = 0);

@@ -104,7 +104,7 @@ class TeapotScene : SceneBuilder {
       return segments(atDetailOne, least);
     };
     place(add(teapot(fine), "teapot"), rotation({0, 1, 0}, 22), glaze, "teapot");
-    place(add(cylinder(1.55f, 0.10f, 0.03f, segments(6, 1), segments(160, 16)), "table"),
+    place(add(roundSlab(1.55f, 0.10f, 0.03f, segments(6, 1), segments(60, 4)), "table"),
           translation({0, -0.10, 0}), table, "table");
     addHallLight(*this, 80);
     addCamera("front", {0.35, 1.55, 3.1}, {0, 0.40, 0}, 40, 800, 600);

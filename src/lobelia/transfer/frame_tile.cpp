@@ -36,8 +36,7 @@ void TileCounts::add(const TileCounts& o) {
 void FrameTile::placePixels(const TransferData& data) {
   for (TilePixel& pixel : pixels_) {
     if (!pixel.hit) continue;
-    const relight::SurroundingVertices around =
-        data.mesh.mesh.at(pixel.hit->instance, pixel.hit->triangle, pixel.hit->b1, pixel.hit->b2);
+    const relight::SurroundingVertices around = data.mesh.around(*pixel.hit);
     for (size_t v = 0; v < 3; ++v) {
       pixel.place.slot[v] = vertices_.slotOf(around.vertex[v]);
       pixel.place.weight[v] = around.weight[v];

@@ -329,10 +329,10 @@ class BouncePass {
     const MaterialHandle material = scene_.instances[instance].material;
     in.narrowClass = classOf(material, input_.data.classCount);
     const uint32_t triangle = hit.triangle - input_.data.mesh.mesh.firstTriangle()[instance];
-    const float b1 = static_cast<float>(hit.b1) / 65535, b2 = static_cast<float>(hit.b2) / 65535;
-    const auto around = input_.data.mesh.mesh.at(instance, triangle, b1, b2);
+    const Hit place = hit.at(instance, triangle);
+    const auto around = input_.data.mesh.around(place);
     const Vec3f wo = -sphere_->grid.directions()[ray];
-    const Reflection own = ownOf(material, around, {0, b1, b2, instance, triangle}, wo);
+    const Reflection own = ownOf(material, around, place, wo);
     if (luminance(own.glossy) > 0) {
       std::array<LobeMoment, kMostClasses + 1> byClass{};
       const PlaceView view = input_.lookup.view(around, own, wo, sphere_->back[ray]);

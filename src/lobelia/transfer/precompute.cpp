@@ -11,6 +11,7 @@
 #include "lobelia/base/parallel.h"
 #include "lobelia/relight/visibility_data.h"
 #include "lobelia/transfer/block_store.h"
+#include "lobelia/transfer/buried_vertices.h"
 #include "lobelia/transfer/gather_block.h"
 #include "lobelia/transfer/mask_subdivision.h"
 
@@ -69,6 +70,8 @@ class Precomputation {
     const relight::VertexFaces faces(tracer_.scene(), data_.mesh.mesh,
                                      relight::leafTriangles(data_.mesh.mesh),
                                      relight::bothSidesOf(tracer_.scene()));
+    data_.mesh.buried =
+        buriedVertices(tracer_, data_.mesh, faces, relight::bothSidesOf(tracer_.scene()));
     const std::vector<uint32_t> instanceOf = instanceOfTriangles(data_.mesh.mesh);
     data_.directionLevel = settings_.directionLevel;
     data_.classCount = settings_.classCount;

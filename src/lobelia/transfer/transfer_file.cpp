@@ -54,6 +54,7 @@ void save(const TransferData& data, const Scene& scene, const std::string& file)
                   reflection ? 1u : 0u};
   writer.add("head", std::span(&head, 1));
   relight::addMesh(data.mesh.mesh, &writer);
+  writer.add("buried", std::span(data.mesh.buried.data(), data.mesh.buried.size()));
   for (size_t j = 0; j < data.passes.size(); ++j)
     addPass(data.passes[j], fmt::format("p{}", j), &writer);
   if (reflection) addRows(data.reflection, "own", &writer);
@@ -77,6 +78,9 @@ TransferData load(const std::string& file, const Scene& scene) {
   data.mesh.mesh = relight::readMesh(reader, file, splitMesh(scene));
   data.mesh.vertices = transferVertices(scene, data.mesh.mesh);
   const size_t rows = data.mesh.vertices.size();
+  data.mesh.buried = reader.get<uint8_t>("buried");
+  if (!data.mesh.buried.empty() && data.mesh.buried.size() != rows)
+    throw InputError({file}, "what it says of its vertices does not fit them; make it again");
   const size_t columns = GeodesicGrid(data.directionLevel).count();
   for (uint32_t j = 0; j < head.passCount; ++j)
     data.passes.push_back(readPass(reader, file, fmt::format("p{}", j),

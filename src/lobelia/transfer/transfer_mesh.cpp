@@ -148,6 +148,20 @@ float areaOf(std::span<const Vec3f> positions, const std::array<uint32_t, 3>& ve
 
 }  // namespace
 
+relight::SurroundingVertices TransferMesh::around(const Hit& hit) const {
+  // A place closer to a buried corner than this takes it in: there is nothing else to know.
+  constexpr float kLeast = 1e-4f;
+  relight::SurroundingVertices out = mesh.at(hit.instance, hit.triangle, hit.b1, hit.b2);
+  if (buried.empty()) return out;
+  float sum = 0;
+  std::array<float, 3> weight{};
+  for (size_t k = 0; k < 3; ++k)
+    if (buried[out.vertex[k]] == 0) sum += weight[k] = out.weight[k];
+  if (sum < kLeast || sum >= 1) return out;
+  for (size_t k = 0; k < 3; ++k) out.weight[k] = weight[k] / sum;
+  return out;
+}
+
 bool isTextured(const Scene& scene, MaterialHandle material) {
   return anyOf(scene, material, hasTextures);
 }

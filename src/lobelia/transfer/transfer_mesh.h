@@ -23,6 +23,12 @@ struct TransferVertex {
 struct TransferMesh {
   relight::SampleMesh mesh;              // its positions are those of vertices
   std::vector<TransferVertex> vertices;  // by the mesh's number
+  // By vertex: is it inside of another object (buried_vertices.h)? Empty: none is.
+  std::vector<uint8_t> buried;
+
+  // The vertices around a place, and their weights. Buried ones have none unless all are: between
+  // bodies that go through one another what is known outside holds up to where they meet.
+  relight::SurroundingVertices around(const Hit& hit) const;
 };
 
 // Of the scene as it is, nothing split. Corners of one place are one vertex where their materials

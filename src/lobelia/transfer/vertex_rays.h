@@ -19,6 +19,12 @@ namespace lobelia::transfer {
 struct RayHit {
   uint32_t triangle = 0;
   uint16_t b1 = 0, b2 = 0;
+  // instance, triangleOfIt: of the triangle.
+  Hit at(uint32_t instance, uint32_t triangleOfIt) const {
+    constexpr float kParts = 65535;
+    return {0, static_cast<float>(b1) / kParts, static_cast<float>(b2) / kParts, instance,
+            triangleOfIt};
+  }
 };
 static_assert(sizeof(RayHit) == 8);
 
