@@ -332,10 +332,12 @@ class BouncePass {
     const float b1 = static_cast<float>(hit.b1) / 65535, b2 = static_cast<float>(hit.b2) / 65535;
     const auto around = input_.data.mesh.mesh.at(instance, triangle, b1, b2);
     const Vec3f wo = -sphere_->grid.directions()[ray];
-    const Reflection own = ownOf(material, around, {0, b1, b2, instance, triangle}, wo);
+    const Hit at{0, b1, b2, instance, triangle};
+    const Side side = input_.lookup.sideOf(at, wo);
+    const Reflection own = ownOf(material, around, at, wo);
     if (luminance(own.glossy) > 0) {
       std::array<LobeMoment, kMostClasses + 1> byClass{};
-      const PlaceView view = input_.lookup.view(around, own, wo, sphere_->back[ray]);
+      const PlaceView view = input_.lookup.view(around, own, wo, side, sphere_->back[ray]);
       const auto& glossy = input_.data.passes[before_].glossy;
       input_.lookup.glossy(view, before_, {byClass.data(), glossy.size()});
       for (size_t c = 0; c < glossy.size(); ++c)
