@@ -35,7 +35,8 @@ void lookUpAll(const Scene& scene, const transfer::TransferData& data,
                const transfer::ReflectionTables& tables) {
   const transfer::SliceLookup lookup(scene, data, tables);
   for (uint32_t v = 0; v < data.mesh.vertices.size(); ++v) {
-    const transfer::VertexView view = lookup.view(v, normalize(Vec3f{0.3f, 0.2f, 0.5f}));
+    const transfer::VertexView view =
+        lookup.view(v, normalize(Vec3f{0.3f, 0.2f, 0.5f}), transfer::Side::front);
     lookup.visible(view);
     for (size_t pass = 1; pass < data.passes.size(); ++pass)
       for (size_t c = 0; c < data.passes[pass].glossy.size(); ++c) lookup.glossy(view, pass, c);

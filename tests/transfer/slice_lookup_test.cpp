@@ -48,12 +48,12 @@ TEST(SliceLookup, NothingStoredIsTheWholeLobeOrNothing) {
   Rng rng(1);
   for (int i = 0; i < 200; ++i) {
     const Vec3f wo = eyeDirection(rng);
-    const VertexView view = lookup.view(0, wo);
+    const VertexView view = lookup.view(0, wo, Side::front);
     EXPECT_TRUE(lookup.visible(view).whole);
     EXPECT_EQ(lookup.glossy(view, 1, 0).share, Rgb{});
     Reflection own;
     ASSERT_TRUE(tables.summary({0}, {0, 0, 1}, wo, &own));
-    const PlaceView place = lookup.view({{0, 1, 2}, {0.2f, 0.3f, 0.5f}}, own, wo);
+    const PlaceView place = lookup.view({{0, 1, 2}, {0.2f, 0.3f, 0.5f}}, own, wo, Side::front);
     LobeMoment moment;
     lookup.glossy(place, 0, {&moment, 1});
     EXPECT_EQ(moment.alpha, own.glossy);
@@ -84,7 +84,8 @@ TEST(SliceLookup, AMirroredLobeIsTheSameBetweenDirections) {
   Rng rng(2);
   for (int i = 0; i < 1000; ++i) {
     const Vec3f wo = eyeDirection(rng);
-    const TransferLobe found = lookup.glossy(lookup.view(1, wo), 1, 0), truth = lobeAt(wo);
+    const TransferLobe found = lookup.glossy(lookup.view(1, wo, Side::front), 1, 0),
+                       truth = lobeAt(wo);
     EXPECT_LT(maxComponent(max(found.share - truth.share, truth.share - found.share)), 2e-3f);
     // Where corners are behind the surface, the rest stands for them.
     if (wo.z < 0.16f) continue;
@@ -115,7 +116,8 @@ TEST(SliceLookup, HalfSeenLobesMoveWithTheEye) {
     Reflection own;
     ASSERT_TRUE(tables.summary({0}, {0, 0, 1}, wo, &own));
     LobeMoment moment;
-    lookup.glossy(lookup.view({{0, 1, 2}, {0.5f, 0.25f, 0.25f}}, own, wo), 0, {&moment, 1});
+    lookup.glossy(lookup.view({{0, 1, 2}, {0.5f, 0.25f, 0.25f}}, own, wo, Side::front), 0,
+                  {&moment, 1});
     const TransferLobe truth = seenAt(wo);
     EXPECT_NEAR(moment.alpha.y, 0.5f * own.glossy.y, 2e-3f);
     const Vec3f r = moment.first / luminance(moment.alpha);
@@ -128,14 +130,19 @@ TEST(SliceLookup, LooksFromTheSideThatReflects) {
   const Square one, both(true);
   const ReflectionTables tablesOfOne(one.scene), tablesOfBoth(both.scene);
   const Vec3f below = normalize(Vec3f(0.6f, 0, -0.3f));
-  const VertexView lifted = SliceLookup(one.scene, one.data, tablesOfOne).view(0, below);
+  const VertexView lifted =
+      SliceLookup(one.scene, one.data, tablesOfOne).view(0, below, Side::back);
   EXPECT_GT(lifted.wo.z, 0);
   EXPECT_EQ(lifted.n, Vec3f(0, 0, 1));
   const SliceLookup lookup(both.scene, both.data, tablesOfBoth);
-  const VertexView turned = lookup.view(0, below);
+  const VertexView turned = lookup.view(0, below, Side::back);
   EXPECT_EQ(turned.wo, below);
   EXPECT_EQ(turned.n, Vec3f(0, 0, -1));
-  for (const VertexView& view : {lifted, turned}) {
+  // A place in front whose vertex has turned away.
+  const VertexView away = lookup.view(0, below, Side::front);
+  EXPECT_GT(away.wo.z, 0);
+  EXPECT_EQ(away.n, Vec3f(0, 0, 1));
+  for (const VertexView& view : {lifted, turned, away}) {
     float sum = 0;
     for (size_t k = 0; k < 3; ++k) {
       sum += view.place.weight[k];

@@ -33,12 +33,13 @@ void TileCounts::add(const TileCounts& o) {
   if (o.firstBad) firstBad = std::min(firstBad.value_or(*o.firstBad), *o.firstBad);
 }
 
-void FrameTile::placePixels(const TransferData& data) {
+void FrameTile::placePixels(const FrameInput& input) {
   for (TilePixel& pixel : pixels_) {
     if (!pixel.hit) continue;
-    const relight::SurroundingVertices around = data.mesh.around(*pixel.hit);
+    const relight::SurroundingVertices around = input.data.mesh.around(*pixel.hit);
+    const Side side = input.lookup.sideOf(*pixel.hit, -pixel.ray.d);
     for (size_t v = 0; v < 3; ++v) {
-      pixel.place.slot[v] = vertices_.slotOf(around.vertex[v]);
+      pixel.place.slot[v] = vertices_.slotOf(around.vertex[v], side);
       pixel.place.weight[v] = around.weight[v];
     }
   }
@@ -128,7 +129,7 @@ TileCounts FrameTile::render(const FrameInput& input, const relight::TileArea& a
                           &pixels_);
     relight::traceTileRays(input.tracer, &pixels_);
     if (vertices_.count() > kMostVertices) vertices_.forget();
-    placePixels(input.data);
+    placePixels(input);
     const int64_t placed = nanosecondsNow();
     vertices_.mergeNew();
     const int64_t merged = nanosecondsNow();

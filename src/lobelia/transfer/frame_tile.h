@@ -33,7 +33,7 @@ class FrameTile {
   TileCounts render(const FrameInput& input, const relight::TileArea& area, Film& film);
 
  private:
-  void placePixels(const TransferData& data);
+  void placePixels(const FrameInput& input);
   void shade(const FrameInput& input, TileCounts* counts);
   Rgb radiance(const FrameInput& input, const relight::TilePixel& pixel);
   // What comes by the glossy lobes straight from infinity, and over other surfaces.

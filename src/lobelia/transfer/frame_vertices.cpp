@@ -34,20 +34,20 @@ void FrameVertices::forget() {
   lobes_.clear();
 }
 
-uint32_t FrameVertices::slotOf(uint32_t vertex) {
-  uint32_t& slot = slots_[vertex];
+uint32_t FrameVertices::slotOf(uint32_t vertex, Side side) {
+  uint32_t& slot = slots_[uint64_t{2} * vertex + static_cast<uint64_t>(side)];
   if (slot == relight::NumberTable::kNone) {
     slot = static_cast<uint32_t>(vertices_.size());
-    vertices_.push_back(vertex);
+    vertices_.push_back({vertex, side});
   }
   return slot;
 }
 
 void FrameVertices::mergeNew() {
   for (size_t slot = mirrors_.size(); slot < vertices_.size(); ++slot) {
-    const uint32_t vertex = vertices_[slot];
+    const auto [vertex, side] = vertices_[slot];
     const TransferVertex& at = data_->mesh.vertices[vertex];
-    const VertexView view = lookup_->view(vertex, eye_->from(at.p, at.n));
+    const VertexView view = lookup_->view(vertex, eye_->from(at.p, at.n), side);
     mirrors_.push_back(view.mirror);
     visible_.push_back(light_->firstPass == 0 ? lookup_->visible(view) : VisiblePart{});
     diffuse_.push_back(diffuseLight(vertex));

@@ -39,8 +39,8 @@ class FrameVertices {
              const EyeDirection& eye);
   void forget();
   size_t count() const { return vertices_.size(); }
-  // Number of a vertex; what it has is there after mergeNew().
-  uint32_t slotOf(uint32_t vertex);
+  // Number of a side of a vertex; what it has is there after mergeNew().
+  uint32_t slotOf(uint32_t vertex, Side side);
   void mergeNew();
 
   const VisiblePart& visible(uint32_t slot) const { return visible_[slot]; }
@@ -56,6 +56,10 @@ class FrameVertices {
   uint64_t merged = 0, lightLookups = 0;  // since begin()
 
  private:
+  struct SeenVertex {
+    uint32_t vertex = 0;
+    Side side = Side::front;
+  };
   Rgb diffuseLight(uint32_t vertex);
   Rgb lightOf(const DiffuseLobes& lobes);
 
@@ -65,7 +69,7 @@ class FrameVertices {
   const EyeDirection* eye_ = nullptr;
   size_t lobeCount_ = 0;
   relight::NumberTable slots_;
-  std::vector<uint32_t> vertices_;  // by slot, as all that follow
+  std::vector<SeenVertex> vertices_;  // by slot, as all that follow
   std::vector<Vec3f> mirrors_;
   std::vector<VisiblePart> visible_;
   std::vector<Rgb> diffuse_;

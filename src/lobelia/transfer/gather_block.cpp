@@ -332,10 +332,11 @@ class BouncePass {
     const Hit place = hit.at(instance, triangle);
     const auto around = input_.data.mesh.around(place);
     const Vec3f wo = -sphere_->grid.directions()[ray];
+    const Side side = input_.lookup.sideOf(place, wo);
     const Reflection own = ownOf(material, around, place, wo);
     if (luminance(own.glossy) > 0) {
       std::array<LobeMoment, kMostClasses + 1> byClass{};
-      const PlaceView view = input_.lookup.view(around, own, wo, sphere_->back[ray]);
+      const PlaceView view = input_.lookup.view(around, own, wo, side, sphere_->back[ray]);
       const auto& glossy = input_.data.passes[before_].glossy;
       input_.lookup.glossy(view, before_, {byClass.data(), glossy.size()});
       for (size_t c = 0; c < glossy.size(); ++c)

@@ -5,7 +5,7 @@
 namespace lobelia::transfer {
 namespace {
 
-// Cosine to the normal above which the eye is taken to be, where only the front reflects.
+// Cosine to the normal above which the eye is taken to be.
 constexpr float kHorizon = 0.01f;
 
 Vec3f mirrored(Vec3f d, Vec3f n) { return n * (2 * dot(n, d)) - d; }
@@ -27,18 +27,20 @@ SliceLookup::SliceLookup(const Scene& scene, const TransferData& data,
     reflectsBehind_.push_back(relight::scattersBehind(scene, {i}) ? 1 : 0);
 }
 
-VertexView SliceLookup::view(uint32_t vertex, Vec3f wo, const GridPlace& place) const {
+Side SliceLookup::sideOf(const Hit& hit, Vec3f wo) const {
+  if (!reflectsBehind(scene_.instances[hit.instance].material)) return Side::front;
+  return dot(surfacePoint(scene_, hit).ng, wo) < 0 ? Side::back : Side::front;
+}
+
+VertexView SliceLookup::view(uint32_t vertex, Vec3f wo, Side side, const GridPlace& place) const {
   const TransferVertex& at = data_.mesh.vertices[vertex];
   VertexView out;
   out.vertex = vertex;
   out.material = scene_.instances[at.instance].material;
-  out.n = at.n;
+  out.n = side == Side::back && reflectsBehind(out.material) ? -at.n : at.n;
   out.wo = wo;
   out.place = place;
-  float cosine = dot(at.n, wo);
-  const bool behind = out.material.valid() && reflectsBehind_[out.material.index] != 0;
-  if (cosine < 0 && behind) out.n = -out.n, cosine = -cosine;
-  if (cosine < kHorizon) {
+  if (dot(out.n, wo) < kHorizon) {
     out.wo = lifted(wo, out.n);
     out.place = grid_.locate(out.wo);
   }
@@ -55,9 +57,9 @@ VertexView SliceLookup::view(uint32_t vertex, Vec3f wo, const GridPlace& place) 
 }
 
 PlaceView SliceLookup::view(const relight::SurroundingVertices& around, const Reflection& own,
-                            Vec3f wo, const GridPlace& place) const {
+                            Vec3f wo, Side side, const GridPlace& place) const {
   PlaceView out;
-  for (size_t v = 0; v < 3; ++v) out.vertices[v] = view(around.vertex[v], wo, place);
+  for (size_t v = 0; v < 3; ++v) out.vertices[v] = view(around.vertex[v], wo, side, place);
   out.weight = around.weight;
   out.own = own;
   return out;

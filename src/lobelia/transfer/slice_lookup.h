@@ -7,6 +7,7 @@
 
 #include "lobelia/transfer/lobe_sum.h"
 #include "lobelia/transfer/reflection.h"
+#include "lobelia/transfer/side.h"
 #include "lobelia/transfer/transfer_data.h"
 #include "lobelia/transfer/visible_part.h"
 
@@ -20,7 +21,7 @@ Vec3f aboveHorizon(Vec3f wo, const SurfacePoint& at);
 struct VertexView {
   uint32_t vertex = 0;
   MaterialHandle material;
-  Vec3f n{}, wo{}, mirror{};  // unit; n on wo's side
+  Vec3f n{}, wo{}, mirror{};  // unit; n on the side that is seen, and wo not behind it
   // Of the grid of directions to the eye; weight 0 for those behind the surface.
   GridPlace place;
 };
@@ -38,16 +39,21 @@ class SliceLookup {
   SliceLookup(const Scene& scene, const TransferData& data, const ReflectionTables& tables);
 
   const GeodesicGrid& directions() const { return grid_; }
-  // wo: unit, world, to the eye. place: where directions() locates it. From behind a surface that
-  // reflects in front alone, as if from just above its horizon.
-  VertexView view(uint32_t vertex, Vec3f wo, const GridPlace& place) const;
-  VertexView view(uint32_t vertex, Vec3f wo) const { return view(vertex, wo, grid_.locate(wo)); }
+  // Of a place of the scene, towards wo. The front for all that scatter nothing behind.
+  Side sideOf(const Hit& hit, Vec3f wo) const;
+  // wo: unit, world, to the eye. place: where directions() locates it. side: of the place that is
+  // looked up, the same for all vertices around it; taken for the front where only that reflects.
+  // From behind the vertex's own horizon, as if from just above it.
+  VertexView view(uint32_t vertex, Vec3f wo, Side side, const GridPlace& place) const;
+  VertexView view(uint32_t vertex, Vec3f wo, Side side) const {
+    return view(vertex, wo, side, grid_.locate(wo));
+  }
   // own: of the place, towards wo (ReflectionTables::summary() is enough).
   PlaceView view(const relight::SurroundingVertices& around, const Reflection& own, Vec3f wo,
-                 const GridPlace& place) const;
-  PlaceView view(const relight::SurroundingVertices& around, const Reflection& own,
-                 Vec3f wo) const {
-    return view(around, own, wo, grid_.locate(wo));
+                 Side side, const GridPlace& place) const;
+  PlaceView view(const relight::SurroundingVertices& around, const Reflection& own, Vec3f wo,
+                 Side side) const {
+    return view(around, own, wo, side, grid_.locate(wo));
   }
 
   // At a vertex. Of pass 0, and of a class of a pass after it: share 0 where there is nothing.
@@ -64,6 +70,9 @@ class SliceLookup {
                                            Rgb albedo) const;
 
  private:
+  bool reflectsBehind(MaterialHandle material) const {
+    return material.valid() && reflectsBehind_[material.index] != 0;
+  }
   const SliceRecord* find(const VertexView& view, size_t pass, size_t lobeClass, size_t k) const {
     return data_.passes[pass].glossy[lobeClass].find(view.vertex, view.place.index[k]);
   }
