@@ -115,6 +115,7 @@ struct CommandLine {
     viewCommand =
         app.add_subcommand("view", "Change light and materials by hand, in a window or by frames");
     addViewOptions(*viewCommand, view);
+    viewCommand->callback([this] { view.render.given = givenOptions(*viewCommand); });
     relightCommand =
         app.add_subcommand("relight", "Mix a picture's light groups anew, without rendering");
     addRelightOptions(*relightCommand, relight);

@@ -67,6 +67,7 @@ Studio::Studio(const StudioSettings& settings, Context& context)
   view_.cutsDepth = stage_->cutsDepth();
   view_.transferDepth = stage_->transferDepth();
   view_.method = hasCuts_ || transferPasses_ > 0 ? stage_->data().method : ViewMethod::path;
+  warnOfMissing(stage_->data(), stage_->scene(), context);
   if (context.cancelled()) throw Cancelled{};
   thread_ = std::thread([this] { work(); });
 }
@@ -75,6 +76,8 @@ Studio::~Studio() {
   desk_.stop();
   thread_.join();
 }
+
+const ViewData& Studio::data() const { return stage_->data(); }
 
 void Studio::send() { desk_.want({history_.share(), view_}); }
 
