@@ -115,6 +115,8 @@ TEST_F(ViewTransfer, ScriptsChangeTheLightAlone) {
   const size_t at = r.err.find(said);
   EXPECT_NE(at, std::string::npos) << r.err;
   EXPECT_EQ(r.err.find(said, at + 1), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("script.txt:4: transfer shows"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("what was changed: 'paint'"), std::string::npos) << r.err;
 }
 
 TEST_F(ViewTransfer, TheFirstDataAreShown) {
@@ -153,6 +155,19 @@ TEST_F(ViewTransfer, RefusesWhatItCannotDraw) {
   scene.replace(scene.find("0.3\"/></bsdf>"), 3, "0.2");
   writeText(file("scene.xml"), scene);
   expectFailure(command("", "x.exr"), 3, "materials or textures were changed");
+}
+
+TEST_F(ViewTransfer, NamesTheDesignThatChangesMaterials) {
+  writeText(file("shiny.xml"), R"(<scene version="3.0.0"><bsdf type="roughconductor" id="paint">
+    <float name="alpha" value="0.1"/></bsdf></scene>)");
+  const std::string design = " --design " + file("shiny.xml");
+  expectFailure(command(design, "x.exr"), 3, file("shiny.xml") + ": this design changes materials");
+  expectFailure(command(design, "x.exr"), 3, "('paint')");
+  // What else is wrong is not the design's fault.
+  std::string scene = kBlockScene;
+  scene.replace(scene.find("0.6, 0.5, 0.4"), 3, "0.7");
+  writeText(file("scene.xml"), scene);
+  expectFailure(command(design, "x.exr"), 3, "materials or textures were changed");
 }
 
 TEST_F(ViewTransfer, SaysWhatItLeavesOut) {

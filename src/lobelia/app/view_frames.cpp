@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "lobelia/app/frame_setup.h"
-#include "lobelia/app/load_scene.h"
 #include "lobelia/app/render_frame.h"
 #include "lobelia/app/studio/design_files.h"
 #include "lobelia/app/studio/screenshot.h"
 #include "lobelia/app/studio/script_edits.h"
+#include "lobelia/app/studio/stage_of_files.h"
 #include "lobelia/app/view_checks.h"
 #include "lobelia/app/view_statistics.h"
 
@@ -58,7 +58,7 @@ ViewFrames::ViewFrames(const ViewOptions& options, const std::string& commandLin
       commandLine_(commandLine),
       context_(context),
       script_(options.script.empty() ? std::vector<ScriptStep>() : readScript(options.script)),
-      stage_(loadScene(options.render.scene, context), options.data, context),
+      stage_(stageOf(options.render.scene, options.data, context)),
       plan_(planFrames(stage_.scene(), options.render, true)),
       history_(turnedDesign(stage_.scene(), options.rotate)),
       first_(history_.share()),

@@ -1,5 +1,7 @@
 #include "lobelia/app/studio/stage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -123,12 +125,16 @@ void Stage::requireTransfer(Use use, const Location& where) const {
                      "measured on; choose another method");
 }
 
-void Stage::sayOfMaterials(const Design& design, Context& context) {
+void Stage::sayOfMaterials(const Design& design, const Location& where, Context& context) {
   if (saidOfMaterials_ || materialsHash(design) == materialsHash_) return;
   saidOfMaterials_ = true;
+  const std::string place = where.file.empty() ? "" : toString(where) + ": ";
+  const std::vector<std::string> changed = io::changedMaterials(materials_, design.materials);
   context.warning(
-      "transfer shows the materials as they were when it was precomputed; other methods show what "
-      "was changed of them");
+      fmt::format("{}transfer shows the materials as they were when it was precomputed; other "
+                  "methods show what "
+                  "was changed{}",
+                  place, changed.empty() ? " of them" : fmt::format(": {}", someOf(changed))));
 }
 
 // Those of the scene as read are said to light nothing before frames (warnOfMissing).
@@ -159,7 +165,7 @@ void Stage::show(std::shared_ptr<const Design> design, Use use, const Location& 
     if (!lightStands_) prepareLight(context);
     if (forTransfer(use)) {
       if (!transferLit_) prepareTransfer(context);
-      sayOfMaterials(*design, context);
+      sayOfMaterials(*design, where, context);
     }
     sayOfLamps(use, context);
   } catch (...) {

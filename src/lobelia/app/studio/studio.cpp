@@ -7,12 +7,12 @@
 #include <filesystem>
 
 #include "lobelia/app/frame_setup.h"
-#include "lobelia/app/load_scene.h"
 #include "lobelia/app/studio/design_files.h"
 #include "lobelia/app/studio/material_edits.h"
 #include "lobelia/app/studio/material_fields.h"
 #include "lobelia/app/studio/picture_maker.h"
 #include "lobelia/app/studio/screenshot.h"
+#include "lobelia/app/studio/stage_of_files.h"
 
 namespace lobelia::app {
 namespace {
@@ -52,7 +52,7 @@ void requireMaterial(const Design& design, uint32_t material) {
 }  // namespace
 
 Studio::Studio(const StudioSettings& settings, Context& context)
-    : stage_(std::make_unique<Stage>(loadScene(settings.scene, context), settings.data, context)),
+    : stage_(new Stage(stageOf(settings.scene, settings.data, context))),
       seed_(settings.seed),
       strict_(settings.scene.strict),
       inputs_(inputsOf(settings)),
