@@ -56,6 +56,11 @@ TEST_F(PrecomputeVmf, WritesDataAndStatistics) {
   EXPECT_EQ(stats["counts"]["shadow_rays"].get<uint64_t>(),
             stats["counts"]["mask_rays"].get<uint64_t>() +
                 stats["counts"]["transfer_rays"].get<uint64_t>());
+  EXPECT_EQ(stats["memory"]["data_bytes"], transfer["bytes"]);
+  EXPECT_GT(stats["memory"]["peak_bytes"], stats["memory"]["data_bytes"]);
+  EXPECT_GT(stats["precompute"]["memory"], 0) << "the machine's, where none is given";
+  EXPECT_EQ(stats["counts"]["blocks_resumed"], 0);
+  EXPECT_EQ(r.err.find("resumed"), std::string::npos) << r.err;
   EXPECT_EQ(stats["memory"]["file_bytes"], std::filesystem::file_size(folder_ / "a.vmf"));
   for (const char* stage : {"load", "masks", "trace", "direct", "bounce", "save", "total"})
     EXPECT_GT(stats["seconds"][stage], 0) << stage;
@@ -105,14 +110,14 @@ bool interrupted(const std::string& arguments, const std::string& folder, int fi
 }
 
 TEST_F(PrecomputeVmf, AFullDiskLeavesWhatIsDone) {
-  const std::string work = folder_ / "work";
+  const std::string work = folder_ / "a/b/work";
   const std::string run = quick_ + "--subdivide 0 --bounces 1 --work " + work + " -o ";
   expectFailure(run + "/dev/full", 1, "cannot write /dev/full");
   EXPECT_FALSE(std::filesystem::is_empty(work));
   const ProgramResult r = runProgram(run + (folder_ / "a.vmf"));
   EXPECT_EQ(r.exitCode, 0) << r.err;
   EXPECT_NE(r.err.find("going on from"), std::string::npos) << r.err;
-  EXPECT_FALSE(std::filesystem::exists(work));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a"));
 }
 
 TEST_F(PrecomputeVmf, GoesOnWhereItWasStopped) {
@@ -136,7 +141,14 @@ TEST_F(PrecomputeVmf, GoesOnWhereItWasStopped) {
   ASSERT_EQ(last.exitCode, 0) << last.err;
   EXPECT_NE(last.err.find("going on from " + work), std::string::npos) << last.err;
   EXPECT_EQ(test::readText(folder_ / "cut"), test::readText(folder_ / "whole"));
-  EXPECT_GT(json::parse(test::readText(folder_ / "stats.json"))["counts"]["blocks_resumed"], 0);
+  const json counts = json::parse(test::readText(folder_ / "stats.json"))["counts"];
+  EXPECT_GT(counts["blocks_resumed"], 0);
+  EXPECT_GT(counts["blocks"], counts["blocks_resumed"]);
+  EXPECT_GT(counts["vertices_added"], 0) << "by the run before";
+  const std::string resumed = "rays of this run, which resumed " +
+                              std::to_string(counts["blocks_resumed"].get<int>()) + " of " +
+                              std::to_string(counts["blocks"].get<int>()) + " blocks";
+  EXPECT_NE(last.err.find(resumed), std::string::npos) << last.err;
   EXPECT_FALSE(std::filesystem::exists(work));
 }
 
@@ -153,11 +165,70 @@ TEST_F(PrecomputeVmf, WrongUsageIsTwo) {
   for (const char* option : {"--directions 642", "--bounces 2", "--lobes one", "--rays auto",
                              "--mask-level 6", "--mask-tolerance 0.1", "--memory 1G", "--work w"})
     expectFailure(cuts + option + out, 2, "--method cuts has no such option");
-  for (const char* option :
-       {"--light surfaces", "--samples 512", "--sigma 1", "--max-cut 9", "--beta 1", "--clusters 4",
-        "--adaptive on", "--horizon keep", "--seed 1"})
+  for (const char* option : {"--light surfaces", "--samples 512", "--sigma 1", "--max-cut 9",
+                             "--beta 1", "--clusters 4", "--adaptive on", "--horizon keep"})
     expectFailure(base_ + option + out, 2, "--method vmf has no such option");
+  for (const char* option : {"--seed 1", "--slice-rays 9"})
+    expectFailure(base_ + option + out, 2, "--solver gather has no such option");
+  for (const char* option : {"--rays 5", "--memory 1G", "--work w"})
+    expectFailure(base_ + "--solver scatter " + option + out, 2,
+                  "--solver scatter has no such option");
+  expectFailure(base_ + "--directions 10242 --rays 4" + out, 2, "finer than the grid of --rays 4");
+  // Before the scene is read, of which nothing is said.
+  const std::string none = "precompute none.xml --method vmf";
+  test::writeText(folder_ / "file", "mine");
+  for (const char* work : {"file", "file/x", "file/x/y"})
+    expectFailure(none + " --work " + (folder_ / work) + out, 2, "is not a folder");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.vmf"));
+}
+
+TEST_F(PrecomputeVmf, ScattersForComparison) {
+  const std::string mesh = base_ + "--directions 162 --subdivide 1 --mask-level 4 --bounces 1 ";
+  const std::string stats = folder_ / "stats.json";
+  const auto scattered = [&](const std::string& options, const std::string& name) {
+    const ProgramResult r = runProgram(mesh + "--solver scatter --slice-rays 16 --quiet " +
+                                       options + " -o " + (folder_ / name) + " --stats " + stats);
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / (name + ".work")));
+    return test::readText(folder_ / name);
+  };
+  const std::string one = scattered("--seed 3", "a");
+  EXPECT_EQ(scattered("--seed 3 --threads 1", "b"), one);
+  EXPECT_NE(scattered("--seed 4", "c"), one);
+  const json made = json::parse(test::readText(stats));
+  EXPECT_EQ(made["precompute"]["solver"], "scatter");
+  EXPECT_EQ(made["precompute"]["slice_rays"], 16);
+  EXPECT_GT(made["seconds"]["scatter"], 0);
+  EXPECT_GT(made["rays_per_second"], 0);
+  EXPECT_GT(made["counts"]["slices"], 0);
+  EXPECT_EQ(made["counts"]["vertices"], made["transfer"]["vertices"]);
+  EXPECT_EQ(made["seed"], 4);
+  const ProgramResult gathered =
+      runProgram(mesh + "--rays 4 --quiet -o " + (folder_ / "d") + " --stats " + stats);
+  ASSERT_EQ(gathered.exitCode, 0) << gathered.err;
+  EXPECT_EQ(made["transfer"]["vertices"],
+            json::parse(test::readText(stats))["transfer"]["vertices"])
+      << "the same mesh";
+  const ProgramResult shown = runProgram("view " + scene_ + " --headless --quiet --data " +
+                                         (folder_ / "a") + " -o " + (folder_ / "a.exr"));
+  EXPECT_EQ(shown.exitCode, 0) << shown.err;
+}
+
+TEST_F(PrecomputeVmf, WarnsOfWhatTheDataWillNotShow) {
+  std::string scene = test::kBlockScene;
+  const size_t from = scene.find("<emitter"), to = scene.find("</emitter>");
+  scene.replace(from, to - from, R"(<emitter type="point"><point name="position" value="0, 3, 0"/>
+    <rgb name="intensity" value="9"/>)");
+  const size_t at = scene.find("<bsdf type=\"diffuse\"");
+  scene.replace(at, scene.find("</bsdf>") - at, R"(<bsdf type="roughdielectric">)");
+  test::writeText(scene_, scene);
+  const ProgramResult r =
+      runProgram(quick_ + "--max-vertices 5 --mask-level 4 --bounces 0 -o " + (folder_ / "a.vmf"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  for (const char* said :
+       {"no light from infinity", "1 of 1 emitters are not at infinity",
+        "1 surfaces transmit light", "--max-vertices 5: the scene itself has 28"})
+    EXPECT_NE(r.err.find(said), std::string::npos) << said << "\n" << r.err;
 }
 
 TEST_F(PrecomputeVmf, TooLittleMemoryIsSaid) {

@@ -115,6 +115,8 @@ TEST_F(ViewTransfer, ScriptsChangeTheLightAlone) {
   const size_t at = r.err.find(said);
   EXPECT_NE(at, std::string::npos) << r.err;
   EXPECT_EQ(r.err.find(said, at + 1), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("script.txt:4: transfer shows"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("what was changed: 'paint'"), std::string::npos) << r.err;
 }
 
 TEST_F(ViewTransfer, TheFirstDataAreShown) {
@@ -132,6 +134,12 @@ TEST_F(ViewTransfer, TheFirstDataAreShown) {
                  file("data") + " -o " + file("y.exr"));
   EXPECT_NE(other.err.find("frames are by cuts"), std::string::npos) << other.err;
   EXPECT_EQ(io::readFilm(file("y.exr")).layers.at("").values, cuts);
+  const std::string cutsFirst = "view " + file("scene.xml") + " --headless --data " + file("cuts") +
+                                " --data " + file("data") + " -o " + file("y.exr") + " --bounce 1";
+  expectFailure(cutsFirst, 2, "frames are by cuts");
+  writeText(file("script.txt"), "method transfer\nframe\n");
+  EXPECT_EQ(runProgram(cutsFirst + " --quiet --script " + file("script.txt")).exitCode, 0);
+  EXPECT_EQ(io::readFilm(file("y.exr")).layers.at("").values, view("--bounce 1"));
 }
 
 TEST_F(ViewTransfer, RefusesWhatItCannotDraw) {
@@ -142,10 +150,24 @@ TEST_F(ViewTransfer, RefusesWhatItCannotDraw) {
   };
   failing("method cuts\nframe\n", "no data of visibility");
   failing("frame\nfalse-colour illuminance\nframe\n", "script.txt:3");
+  failing("false-colour cost\nframe\nscreenshot x.png\n", "transfer does not count");
   std::string scene = kBlockScene;
   scene.replace(scene.find("0.3\"/></bsdf>"), 3, "0.2");
   writeText(file("scene.xml"), scene);
   expectFailure(command("", "x.exr"), 3, "materials or textures were changed");
+}
+
+TEST_F(ViewTransfer, NamesTheDesignThatChangesMaterials) {
+  writeText(file("shiny.xml"), R"(<scene version="3.0.0"><bsdf type="roughconductor" id="paint">
+    <float name="alpha" value="0.1"/></bsdf></scene>)");
+  const std::string design = " --design " + file("shiny.xml");
+  expectFailure(command(design, "x.exr"), 3, file("shiny.xml") + ": this design changes materials");
+  expectFailure(command(design, "x.exr"), 3, "('paint')");
+  // What else is wrong is not the design's fault.
+  std::string scene = kBlockScene;
+  scene.replace(scene.find("0.6, 0.5, 0.4"), 3, "0.7");
+  writeText(file("scene.xml"), scene);
+  expectFailure(command(design, "x.exr"), 3, "materials or textures were changed");
 }
 
 TEST_F(ViewTransfer, SaysWhatItLeavesOut) {
@@ -158,6 +180,50 @@ TEST_F(ViewTransfer, SaysWhatItLeavesOut) {
   EXPECT_EQ(r.exitCode, 0) << r.err;
   EXPECT_NE(r.err.find("no light from infinity"), std::string::npos) << r.err;
   EXPECT_NE(r.err.find("1 of 1 emitters are not at infinity"), std::string::npos) << r.err;
+}
+
+// How often it is said.
+size_t timesSaid(const std::string& text, const std::string& what) {
+  size_t count = 0;
+  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
+}
+
+TEST_F(ViewTransfer, AddedLampsAreSaidToLightNothingOnce) {
+  writeText(file("script.txt"),
+            "frame\nlight add point 0,3,0 9,9,9 a\nframe\nlight add spot 0,3,0 9,9,9 b\nframe\n");
+  const ProgramResult r = runProgram(command("--script " + file("script.txt"), "s%d.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_EQ(timesSaid(r.err, "lamps that were added light nothing"), 1) << r.err;
+  const auto values = [&](const char* frame) {
+    return io::readFilm(file(frame)).layers.at("").values;
+  };
+  EXPECT_EQ(values("s2.exr"), values("s0.exr"));
+  writeText(file("script.txt"), "light add constant 0,1,0 1,1,1\nframe\n");
+  expectFailure(command("--script " + file("script.txt"), "x.exr"), 3, "from all around already");
+}
+
+TEST_F(ViewTransfer, SaysWhichOptionsChangeNothing) {
+  const ProgramResult r =
+      runProgram(command("--light-cut 9 --plain-lobes --area-places 2 --component all", "x.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  for (const char* option : {"--light-cut", "--plain-lobes", "--area-places"})
+    EXPECT_NE(r.err.find(std::string(option) + " has no effect: it is of frames by cuts"),
+              std::string::npos)
+        << r.err;
+  EXPECT_EQ(timesSaid(r.err, "has no effect"), 3) << r.err;
+  EXPECT_EQ(timesSaid(runProgram(command("", "x.exr")).err, "has no effect"), 0);
+}
+
+TEST_F(ViewTransfer, SaysThatDirectDataHaveNoIndirectLight) {
+  const ProgramResult made =
+      runProgram("precompute " + file("scene.xml") +
+                 " --method vmf --directions 162 --rays 4 --subdivide 0 --bounces 0 --quiet -o " +
+                 file("data"));
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  const ProgramResult r = runProgram(command("--component indirect", "x.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_NE(r.err.find("frames by transfer are black"), std::string::npos) << r.err;
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TransferSettings coarse() {
 
 TransferMesh meshOf(const Scene& scene) {
   const relight::SampleMesh mesh = splitMesh(scene);
-  return {mesh, transferVertices(scene, mesh)};
+  return {mesh, transferVertices(scene, mesh), {}};
 }
 
 // Sums over slices of a pass: energy and what the two differ in.

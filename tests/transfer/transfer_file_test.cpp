@@ -6,6 +6,7 @@
 #include "lobelia/base/random.h"
 #include "lobelia/relight/visibility_data.h"
 #include "lobelia/store/store.h"
+#include "lobelia/transfer/transfer_summary.h"
 #include "support/run_program.h"
 #include "transfer/small_transfer.h"
 
@@ -63,6 +64,17 @@ TEST_F(TransferFile, CountsWhatIsLookedUp) {
   }
   EXPECT_EQ(data_->recordCount(), records);
   EXPECT_EQ(data_->byteCount(), bytes);
+}
+
+TEST_F(TransferFile, IsDescribedWithoutItsScene) {
+  const TransferSummary s = summaryOf(file_);
+  EXPECT_EQ(s.sceneHash, transferHash(*scene_));
+  EXPECT_EQ(s.directions, GeodesicGrid(data_->directionLevel).count());
+  EXPECT_EQ(s.passes, data_->passes.size());
+  EXPECT_EQ(s.classes, 1u);
+  EXPECT_EQ(s.vertices, data_->mesh.vertices.size());
+  EXPECT_EQ(s.records, data_->recordCount());
+  EXPECT_EQ(s.bytes, data_->byteCount());
 }
 
 TEST_F(TransferFile, KeepsClasses) {
@@ -135,6 +147,7 @@ TEST_F(TransferFile, IsRefusedWhenDamaged) {
     bad[rng.nextUint() % bad.size()] ^= static_cast<char>(1 << (i % 8));
     test::writeText(file_, bad);
     EXPECT_THROW(load(file_, *scene_), InputError) << i;
+    EXPECT_THROW(summaryOf(file_), InputError) << i;
   }
   test::writeText(file_, good.substr(0, good.size() / 2));
   expectRefused(*scene_, "truncated");

@@ -118,7 +118,22 @@ TEST_F(WorkFolderTest, WhatIsNoFolderIsRefused) {
   EXPECT_EQ(test::readText(path_), "mine");
 }
 
+TEST_F(WorkFolderTest, FoldersAboveGoWithItWhereItMadeThem) {
+  fill();
+  WorkFolder(path_, 5, context_).remove();  // by a later run
+  EXPECT_FALSE(fs::exists(temporary_ / "a"));
+  EXPECT_TRUE(fs::exists(temporary_ / ""));
+  EXPECT_EQ(messages_.said("1 blocks are done"), 1u) << "the note of folders is none of them";
+
+  WorkFolder deep(temporary_ / "b/c/d/", 5, context_);
+  fs::create_directories(temporary_ / "b/other");
+  deep.remove();
+  EXPECT_FALSE(fs::exists(temporary_ / "b/c"));
+  EXPECT_TRUE(fs::exists(temporary_ / "b/other"));
+}
+
 TEST_F(WorkFolderTest, IsRemovedWithItsBlocksAlone) {
+  fs::create_directories(temporary_ / "a");
   fill();
   WorkFolder(path_, 5, context_).remove();
   EXPECT_FALSE(fs::exists(path_));

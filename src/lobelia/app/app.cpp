@@ -92,6 +92,8 @@ struct CommandLine {
     fitCommand->add_flag("--json", fit.json, "Print JSON");
     infoCommand = app.add_subcommand("info", "Validate and describe a scene, with all warnings");
     addSceneOptions(*infoCommand, info.scene);
+    infoCommand->get_option("scene")->description(
+        "Scene file, the name of a built-in scene, or data of precompute");
     infoCommand->add_flag("--json", info.json, "Print JSON");
     methodsCommand =
         app.add_subcommand("methods", "Light models, gather strategies, what combines");
@@ -115,6 +117,7 @@ struct CommandLine {
     viewCommand =
         app.add_subcommand("view", "Change light and materials by hand, in a window or by frames");
     addViewOptions(*viewCommand, view);
+    viewCommand->callback([this] { view.render.given = givenOptions(*viewCommand); });
     relightCommand =
         app.add_subcommand("relight", "Mix a picture's light groups anew, without rendering");
     addRelightOptions(*relightCommand, relight);

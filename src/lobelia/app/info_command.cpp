@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lobelia/app/commands.h"
+#include "lobelia/app/data_info.h"
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/load_scene.h"
 #include "lobelia/io/scene_io.h"
@@ -176,7 +177,18 @@ void printFindings(const Json& findings) {
 void printText(const Json& json) {
   for (const auto& [key, value] : json.items())
     if (key != "findings") fmt::print("{:<12} {}\n", key, text(key, value));
-  printFindings(json["findings"]);
+  if (json.contains("findings")) printFindings(json["findings"]);
+}
+
+// Options of reading a scene, which data does not have.
+void requireNone(const SceneOptions& options) {
+  const SceneOptions none;
+  if (!options.definitions.empty() || !options.environment.empty() || !options.sky.empty() ||
+      !options.variant.empty() || !options.design.empty() || !options.meshes.empty() ||
+      options.time != none.time || options.detail != none.detail || options.strict)
+    throw UsageError(
+        fmt::format("{} is data of `lobelia precompute`, not a scene: only --json goes with it",
+                    options.scene));
 }
 
 }  // namespace
@@ -184,7 +196,9 @@ void printText(const Json& json) {
 ExitCode info(const InfoOptions& options, const GlobalOptions&) {
   Console console(Verbosity::quiet);  // the findings are the output
   Context context(&console);
-  const Json json = describe(loadScene(options.scene, context));
+  std::optional<Json> data = describeData(options.scene.scene);
+  if (data) requireNone(options.scene);
+  const Json json = data ? std::move(*data) : describe(loadScene(options.scene, context));
   if (options.json) {
     fmt::print("{}\n", json.dump(2));
   } else {

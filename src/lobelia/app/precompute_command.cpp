@@ -16,6 +16,8 @@ void requireFiles(const PrecomputeOptions& options) {
   if (options.output == options.stats)
     throw UsageError(
         fmt::format("{} would be written twice; give each output its own name", options.output));
+  if (const std::string work = workFolder(options); options.method == "vmf" && !work.empty())
+    requireWritableFolder(work);
   requireNoInput({options.output, options.stats},
                  {options.scene.scene, options.scene.design, options.scene.environment});
 }

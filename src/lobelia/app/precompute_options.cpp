@@ -13,11 +13,13 @@
 namespace lobelia::app {
 namespace {
 
-constexpr const char* kOfCuts[] = {"--light",    "--samples",  "--sigma",   "--max-cut", "--beta",
-                                   "--clusters", "--adaptive", "--horizon", "--seed"};
-constexpr const char* kOfVmf[] = {"--directions",   "--bounces",    "--lobes",
-                                  "--rays",         "--mask-level", "--mask-tolerance",
-                                  "--max-vertices", "--memory",     "--work"};
+constexpr const char* kOfCuts[] = {"--light", "--samples",  "--sigma",    "--max-cut",
+                                   "--beta",  "--clusters", "--adaptive", "--horizon"};
+constexpr const char* kOfVmf[] = {
+    "--solver",     "--directions",     "--bounces",      "--lobes",  "--rays", "--slice-rays",
+    "--mask-level", "--mask-tolerance", "--max-vertices", "--memory", "--work"};
+constexpr const char* kOfGather[] = {"--rays", "--memory", "--work"};
+constexpr const char* kOfScatter[] = {"--slice-rays", "--seed"};
 
 CLI::Validator powerOfTwo(uint64_t least, uint64_t most) {
   return CLI::Validator(
@@ -79,7 +81,10 @@ void addCutOptions(CLI::App& c, PrecomputeOptions& o) {
       ->type_name("WHICH")
       ->check(oneOf({"ignore", "keep"}))
       ->capture_default_str();
-  c.add_option("--seed", o.seed, "cuts: seed of all random choices; vmf has none")
+  c.add_option(
+       "--seed", o.seed,
+       "cuts, and vmf with --solver scatter: seed of all random choices; --solver gather has "
+       "none")
       ->type_name("N")
       ->check(seedNumber())
       ->capture_default_str();
@@ -87,6 +92,13 @@ void addCutOptions(CLI::App& c, PrecomputeOptions& o) {
 
 void addVmfOptions(CLI::App& c, PrecomputeOptions& o) {
   transfer::TransferSettings& s = o.vmf;
+  c.add_option("--solver", o.solver,
+               "vmf: gather: rays from each vertex gather what the bounce before has at other "
+               "surfaces; scatter: paths are followed from each vertex until they leave the scene, "
+               "the baseline to compare with, noisy and slow")
+      ->type_name("WHICH")
+      ->check(oneOf({"gather", "scatter"}))
+      ->capture_default_str();
   c.add_option("--directions", o.directions,
                "vmf: directions to the eye for which each vertex knows its lobes")
       ->type_name("N")
@@ -108,6 +120,11 @@ void addVmfOptions(CLI::App& c, PrecomputeOptions& o) {
                "or 7 (163,842); auto: as the sharpest material wants")
       ->type_name("LEVEL")
       ->check(oneOf({"auto", "4", "5", "6", "7"}))
+      ->capture_default_str();
+  c.add_option("--slice-rays", o.sliceRays,
+               "vmf, --solver scatter: paths for each vertex and direction")
+      ->type_name("N")
+      ->check(integerRange(1, 65536))
       ->capture_default_str();
   c.add_option("--mask-level", s.maskLevel,
                "vmf: level of the grid of directions in which visibility is compared for "
@@ -138,15 +155,35 @@ void addVmfOptions(CLI::App& c, PrecomputeOptions& o) {
       ->type_name("FOLDER");
 }
 
-void refuse(const PrecomputeOptions& options, std::span<const char* const> names,
-            const char* method) {
+bool isGiven(const PrecomputeOptions& options, const char* name) {
+  return std::find(options.given.begin(), options.given.end(), name) != options.given.end();
+}
+
+// what: the option that chooses; owner: its value to which these options belong.
+void refuse(const PrecomputeOptions& options, std::span<const char* const> names, const char* what,
+            const char* owner, const std::string& chosen) {
   for (const char* name : names)
-    if (std::find(options.given.begin(), options.given.end(), name) != options.given.end())
-      throw UsageError(fmt::format("{} is of --method {}; --method {} has no such option", name,
-                                   method, options.method));
+    if (isGiven(options, name))
+      throw UsageError(
+          fmt::format("{} is of {} {}; {} {} has no such option", name, what, owner, what, chosen));
+}
+
+// A slice's directions are not looked at more closely than by the rays of its vertex.
+void requireRaysFor(const PrecomputeOptions& options) {
+  if (options.rays == "auto" || directionLevel(options) <= std::stoi(options.rays)) return;
+  throw UsageError(
+      fmt::format("--directions {} is finer than the grid of --rays {}; give --rays {} or more, or "
+                  "fewer directions",
+                  options.directions, options.rays, directionLevel(options)));
 }
 
 }  // namespace
+
+int directionLevel(const PrecomputeOptions& options) {
+  int level = 0;
+  while (10 * (1 << 2 * level) + 2 < std::stoi(options.directions)) ++level;
+  return level;
+}
 
 const std::vector<std::string>& precomputeMethods() {
   static const std::vector<std::string> names{"cuts", "vmf"};
@@ -178,8 +215,12 @@ void requireOfMethod(const PrecomputeOptions& options) {
   if (std::find(known.begin(), known.end(), options.method) == known.end())
     throw UsageError(fmt::format("--method '{}' is not known{}", options.method,
                                  suggestion(options.method, known)));
-  if (options.method == "cuts") refuse(options, kOfVmf, "vmf");
-  if (options.method == "vmf") refuse(options, kOfCuts, "cuts");
+  if (options.method == "cuts") return refuse(options, kOfVmf, "--method", "vmf", "cuts");
+  refuse(options, kOfCuts, "--method", "cuts", "vmf");
+  if (options.solver == "scatter")
+    return refuse(options, kOfGather, "--solver", "gather", "scatter");
+  refuse(options, kOfScatter, "--solver", "scatter", "gather");
+  requireRaysFor(options);
 }
 
 }  // namespace lobelia::app

@@ -24,14 +24,18 @@ struct PrecomputeOptions {
   std::string light = "environment", adaptive = "on", horizon = "ignore";
   relight::PrecomputeSettings cuts;  // what the words above and `subdivision` say left out
 
-  std::string directions = "642", rays = "auto", lobes = "one";
+  std::string solver = "gather", directions = "642", rays = "auto", lobes = "one";
+  int sliceRays = 144;             // of --solver scatter
   std::string work;                // folder; "": beside the output; "none"
   transfer::TransferSettings vmf;  // what the words above and `subdivision` say left out
 };
 
 void addPrecomputeOptions(CLI::App& command, PrecomputeOptions& options);
 const std::vector<std::string>& precomputeMethods();
-// Throws UsageError for a method that is not known, and for options that the method has not.
+// Of the grid of directions to the eye that has so many.
+int directionLevel(const PrecomputeOptions& options);
+// Throws UsageError for a method that is not known, for options that the method or its solver has
+// not, and such as do not go together.
 void requireOfMethod(const PrecomputeOptions& options);
 
 }  // namespace lobelia::app

@@ -10,7 +10,7 @@
 
 namespace lobelia::app {
 
-void warnOfMissing(const transfer::TransferData& data, const Scene& scene, Context& context) {
+void warnOfMissing(const Scene& scene, Context& context) {
   const auto near = std::count_if(scene.emitters.begin(), scene.emitters.end(),
                                   [](const Emitter& e) { return relight::isLocal(e.type); });
   if (near == std::ssize(scene.emitters))
@@ -26,8 +26,6 @@ void warnOfMissing(const transfer::TransferData& data, const Scene& scene, Conte
   if (clear > 0)
     context.warning(
         fmt::format("{} surfaces transmit light: transfer has only their reflections", clear));
-  context.debug(fmt::format("{} passes of transfer for {} vertices", data.passes.size(),
-                            data.mesh.vertices.size()));
 }
 
 void requireBounce(int bounce, int passes) {

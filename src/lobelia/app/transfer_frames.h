@@ -16,8 +16,8 @@ struct TransferView {
   int bounce = -1;                // light of so many reflections at other surfaces alone; -1: all
 };
 
-// What frames will not show of the scene's light.
-void warnOfMissing(const transfer::TransferData& data, const Scene& scene, Context& context);
+// What transfer will not show of the scene: of its light, and of surfaces that transmit.
+void warnOfMissing(const Scene& scene, Context& context);
 // Throws UsageError for a bounce that data of so many passes (0: there is none) has not; -1 is all.
 void requireBounce(int bounce, int passes);
 // [first, end) of the passes that a view shows.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lobelia/app/transfer_frames.h"
 #include "lobelia/store/store.h"
 
 namespace lobelia::app {
@@ -24,6 +25,14 @@ ViewData loadViewData(const std::vector<std::string>& files, const Scene& scene,
   }
   out.cuts = loadCutData(cuts, scene, context);
   return out;
+}
+
+void warnOfMissing(const ViewData& data, const Scene& scene, Context& context) {
+  if (data.cuts.any() != nullptr) warnOfMissing(data.cuts, scene, context);
+  if (!data.transfer) return;
+  warnOfMissing(scene, context);
+  context.debug(fmt::format("{} passes of transfer for {} vertices", data.transfer->passes.size(),
+                            data.transfer->mesh.vertices.size()));
 }
 
 }  // namespace lobelia::app

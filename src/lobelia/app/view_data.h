@@ -19,5 +19,7 @@ struct ViewData {
 // Seconds: "data". Throws InputError as relight::load() and transfer::load() do, and UsageError for
 // two files of a kind.
 ViewData loadViewData(const std::vector<std::string>& files, const Scene& scene, Context& context);
+// What pictures from the data will not show of the scene.
+void warnOfMissing(const ViewData& data, const Scene& scene, Context& context);
 
 }  // namespace lobelia::app

@@ -7,11 +7,12 @@
 #include <cmath>
 
 #include "lobelia/app/frame_setup.h"
-#include "lobelia/app/load_scene.h"
 #include "lobelia/app/render_frame.h"
 #include "lobelia/app/studio/design_files.h"
 #include "lobelia/app/studio/screenshot.h"
 #include "lobelia/app/studio/script_edits.h"
+#include "lobelia/app/studio/stage_of_files.h"
+#include "lobelia/app/view_checks.h"
 #include "lobelia/app/view_statistics.h"
 
 namespace lobelia::app {
@@ -57,7 +58,7 @@ ViewFrames::ViewFrames(const ViewOptions& options, const std::string& commandLin
       commandLine_(commandLine),
       context_(context),
       script_(options.script.empty() ? std::vector<ScriptStep>() : readScript(options.script)),
-      stage_(loadScene(options.render.scene, context), options.data, context),
+      stage_(stageOf(options.render.scene, options.data, context)),
       plan_(planFrames(stage_.scene(), options.render, true)),
       history_(turnedDesign(stage_.scene(), options.rotate)),
       first_(history_.share()),
@@ -66,15 +67,12 @@ ViewFrames::ViewFrames(const ViewOptions& options, const std::string& commandLin
   const ViewData& data = stage_.data();
   view_.method = data.method;
   requireBounce(options.bounce, stage_.transferPasses());
-  if (stage_.hasCuts()) warnOfMissing(data.cuts, stage_.scene(), context_);
-  if (stage_.hasTransfer()) warnOfMissing(*data.transfer, stage_.scene(), context_);
+  requireTransferFrames(options, data, script_);
+  warnOfMissing(data, stage_.scene(), context_);
+  warnOfOptions(options, data, context_);
   if (stage_.hasCuts() && stage_.hasTransfer())
     context_.info(fmt::format("data of cuts and of transfer: frames are by {}, of the first --data",
                               viewMethodNames()[static_cast<size_t>(view_.method)]));
-  if (stage_.hasCuts() && !data.cuts.surfaces && options.render.component == "indirect")
-    context_.warning(
-        "--component indirect: the data are of direct light alone, so frames by cuts are black; "
-        "add --data of `lobelia precompute --light surfaces`");
   view_.lightCut = options.lightCut;
   view_.refined = !options.plainLobes;
   view_.frameSpp = std::max(options.render.spp, 1);

@@ -34,6 +34,11 @@ DesignParts applyDesign(const std::string& file, const ReadSettings& settings, S
 // RuntimeError; then the file is as it was.
 void writeDesign(const std::string& file, const Scene& before, const Scene& now);
 
+// The names of materials that are others in `now`. What is wrapped, textures
+// and images are the same when their handles are; names do not count.
+std::vector<std::string> changedMaterials(const std::vector<Material>& before,
+                                          const std::vector<Material>& now);
+
 // What a design calls them.
 std::string designName(const std::vector<Material>& materials, size_t index);
 std::string designName(const std::vector<Emitter>& emitters, size_t index);

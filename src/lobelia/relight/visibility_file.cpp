@@ -14,12 +14,12 @@
 #include "lobelia/base/parallel.h"
 #include "lobelia/relight/mesh_chunks.h"
 #include "lobelia/relight/visibility_data.h"
+#include "lobelia/relight/visibility_summary.h"
 #include "lobelia/store/store.h"
 
 namespace lobelia::relight {
 namespace {
 
-constexpr const char* kKind = "visibility-cuts";
 constexpr uint32_t kVersion = 1;
 
 [[noreturn]] void damaged(const std::string& file, const std::string& what) {
@@ -102,7 +102,7 @@ LightSamples readSamples(const store::Reader& reader, const std::string& file) {
 }  // namespace
 
 void save(const VisibilityData& data, const Scene& scene, const std::string& file) {
-  store::Writer writer(kKind, kVersion, geometryHash(scene));
+  store::Writer writer(kVisibilityKind, kVersion, geometryHash(scene));
   const std::vector<uint32_t> kind{static_cast<uint32_t>(data.samples.kind)};
   writer.add("kind", spanOf(kind));
   writer.add("sample-places", spanOf(data.samples.p));
@@ -115,7 +115,7 @@ void save(const VisibilityData& data, const Scene& scene, const std::string& fil
 }
 
 VisibilityData load(const std::string& file, const Scene& scene) {
-  const store::Reader reader(file, kKind, kVersion);
+  const store::Reader reader(file, kVisibilityKind, kVersion);
   if (reader.sceneHash() != geometryHash(scene)) {
     throw InputError({file},
                      "this visibility is of other geometry (or the scene's shapes or masks were "
@@ -134,6 +134,13 @@ VisibilityData load(const std::string& file, const Scene& scene) {
     damaged(file, "the list of two-sided surfaces does not fit the scene");
   requireKnownSides(data, scene, {file});
   return data;
+}
+
+VisibilitySummary summaryOf(const std::string& file) {
+  const store::Reader reader(file, kVisibilityKind, kVersion);
+  const LightSamples samples = readSamples(reader, file);
+  const CutSet cuts = readCuts(reader, file, makeSampleTree(samples).levels);
+  return {reader.sceneHash(), samples.kind, samples.count(), cuts.count(), cuts.nodes().size()};
 }
 
 void requireKnownSides(const VisibilityData& data, const Scene& scene, const Location& where) {

@@ -1,7 +1,6 @@
 #include "lobelia/transfer/precompute.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,16 +9,15 @@
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/relight/visibility_data.h"
+#include "lobelia/transfer/adaptive_mesh.h"
 #include "lobelia/transfer/block_store.h"
 #include "lobelia/transfer/buried_vertices.h"
 #include "lobelia/transfer/gather_block.h"
-#include "lobelia/transfer/mask_subdivision.h"
 
 namespace lobelia::transfer {
 namespace {
 
-constexpr size_t kBlock = 256;      // vertices
-constexpr size_t kAllowed = 20000;  // vertices that may be added to any scene
+constexpr size_t kBlock = 256;  // vertices
 
 // Grids of rays, as fine as a lobe needs: its solid angle, about 4 pi / kappa, has 38 rays or more,
 // evenly spread, where the paper has 144 at random. Lobes sharper than kappa 1,078 have fewer.
@@ -38,12 +36,6 @@ std::vector<RaySphere> raySpheres(int level, const GeodesicGrid& directions) {
     for (int l = kCoarsestRays; l <= kFinestRays; ++l) spheres.emplace_back(l, directions);
   }
   return spheres;
-}
-
-uint64_t budgetOf(const TransferSettings& settings) {
-  if (settings.memoryBytes > 0) return settings.memoryBytes;
-  return static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<uint64_t>(sysconf(_SC_PAGE_SIZE)) / 4 * 3;
 }
 
 std::vector<uint32_t> instanceOfTriangles(const relight::SampleMesh& mesh) {
@@ -99,15 +91,10 @@ class Precomputation {
     context_.progress("masks", 0);
     if (std::optional<relight::SampleMesh> known = store_.mesh(tracer_.scene())) {
       data_.mesh.mesh = std::move(*known);
+      const size_t before = splitMesh(tracer_.scene()).positions().size();
+      context_.statistics.addCount("vertices_added", data_.mesh.mesh.positions().size() - before);
     } else {
-      data_.mesh.mesh = splitMesh(tracer_.scene());
-      const size_t before = data_.mesh.mesh.positions().size();
-      const MaskSettings masks{settings_.maskLevel, settings_.maskTolerance, settings_.subdivision,
-                               mostVertices(before), budget_ / 4};
-      if (settings_.subdivision > 0)
-        data_.mesh.mesh = subdividedByMasks(tracer_, std::move(data_.mesh.mesh), masks, context_);
-      context_.debug(fmt::format("{} vertices, {} after subdivision", before,
-                                 data_.mesh.mesh.positions().size()));
+      data_.mesh.mesh = adaptiveMesh(tracer_, settings_, context_);
       store_.putMesh(data_.mesh.mesh);
     }
     data_.mesh.vertices = transferVertices(tracer_.scene(), data_.mesh.mesh);
@@ -122,11 +109,6 @@ class Precomputation {
                                       : static_cast<uint8_t>(rayLevelFor(kappa) - kCoarsestRays));
     }
     return out;
-  }
-
-  size_t mostVertices(size_t before) const {
-    if (settings_.mostVertices > 0) return std::max(settings_.mostVertices, before);
-    return before + std::max(before, kAllowed);
   }
 
   size_t end(size_t block) const {
@@ -245,6 +227,7 @@ class Precomputation {
 
   void report() const {
     context_.statistics.addCount("records", data_.recordCount());
+    context_.statistics.addCount("blocks", blocks_ * data_.passes.size());
     context_.statistics.addCount("blocks_resumed", store_.resumed());
   }
 

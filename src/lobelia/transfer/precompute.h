@@ -34,8 +34,9 @@ struct TransferSettings {
 // No randomness. Throws Cancelled when the context is (what is done stays in the work folder),
 // RuntimeError where the budget is too small, with what would fit. Seconds by stage: "masks"
 // (masks and subdivision), "trace", "direct", "bounce". Counts: "vertices", "vertices_added",
-// "mask_rays", "transfer_rays", "hits", "slices", "slices_unoccluded", "records",
-// "blocks_resumed", "nonfinite".
+// "mask_rays", "transfer_rays", "hits", "slices", "slices_unoccluded", "records", "blocks" (of all
+// passes), "blocks_resumed", "nonfinite"; rays, hits and slices are those of blocks that were not
+// resumed.
 TransferData precomputeTransfer(const Tracer& tracer, const TransferSettings& settings,
                                 Context& context);
 

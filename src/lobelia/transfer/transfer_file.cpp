@@ -5,6 +5,7 @@
 #include "lobelia/relight/mesh_chunks.h"
 #include "lobelia/scene/surface_hash.h"
 #include "lobelia/transfer/slice_chunks.h"
+#include "lobelia/transfer/transfer_summary.h"
 
 namespace lobelia::transfer {
 namespace {
@@ -16,7 +17,10 @@ struct Head {
   uint32_t directionLevel, classCount, passCount, hasReflection;
 };
 
-void requireSound(const Head& head, const std::string& file) {
+Head readHead(const store::Reader& reader, const std::string& file) {
+  const auto heads = reader.get<Head>("head");
+  if (heads.size() != 1) throw InputError({file}, "it has no head; make it again");
+  const Head head = heads[0];
   const bool good = head.directionLevel <= 5 && head.classCount >= 1 &&
                     head.classCount <= static_cast<uint32_t>(kMostClasses) && head.passCount >= 1 &&
                     head.passCount <= kMostPasses && head.hasReflection <= 1;
@@ -24,6 +28,23 @@ void requireSound(const Head& head, const std::string& file) {
     throw InputError({file},
                      "its directions, classes or passes are out of range; make it again with "
                      "`lobelia precompute --method vmf`");
+  return head;
+}
+
+// All but the mesh, of so many vertices.
+void readPasses(const store::Reader& reader, const std::string& file, const Head& head, size_t rows,
+                TransferData* data) {
+  data->directionLevel = static_cast<int>(head.directionLevel);
+  data->classCount = static_cast<int>(head.classCount);
+  const size_t columns = GeodesicGrid(data->directionLevel).count();
+  for (uint32_t j = 0; j < head.passCount; ++j)
+    data->passes.push_back(readPass(reader, file, fmt::format("p{}", j),
+                                    j == 0 ? 1 : head.classCount + 1, rows, columns));
+  // Whoever looks a vertex up finds a row, also where somebody has taken them out of the file.
+  data->reflection =
+      head.hasReflection != 0
+          ? readRows(reader, file, "own", rows, columns)
+          : SliceRows(columns, std::vector<uint64_t>(rows * ((columns + 63) / 64)), {});
 }
 
 }  // namespace
@@ -68,29 +89,27 @@ TransferData load(const std::string& file, const Scene& scene) {
                      "this transfer is of another scene (or shapes, materials or textures were "
                      "changed since); make it again with `lobelia precompute --method vmf`");
   }
-  const auto heads = reader.get<Head>("head");
-  if (heads.size() != 1) throw InputError({file}, "it has no head; make it again");
-  const Head head = heads[0];
-  requireSound(head, file);
+  const Head head = readHead(reader, file);
   TransferData data;
-  data.directionLevel = static_cast<int>(head.directionLevel);
-  data.classCount = static_cast<int>(head.classCount);
   data.mesh.mesh = relight::readMesh(reader, file, splitMesh(scene));
   data.mesh.vertices = transferVertices(scene, data.mesh.mesh);
-  const size_t rows = data.mesh.vertices.size();
   data.mesh.buried = reader.get<uint8_t>("buried");
-  if (!data.mesh.buried.empty() && data.mesh.buried.size() != rows)
+  if (!data.mesh.buried.empty() && data.mesh.buried.size() != data.mesh.vertices.size())
     throw InputError({file}, "what it says of its vertices does not fit them; make it again");
-  const size_t columns = GeodesicGrid(data.directionLevel).count();
-  for (uint32_t j = 0; j < head.passCount; ++j)
-    data.passes.push_back(readPass(reader, file, fmt::format("p{}", j),
-                                   j == 0 ? 1 : head.classCount + 1, rows, columns));
-  // Whoever looks a vertex up finds a row, also where somebody has taken them out of the file.
-  data.reflection =
-      head.hasReflection != 0
-          ? readRows(reader, file, "own", rows, columns)
-          : SliceRows(columns, std::vector<uint64_t>(rows * ((columns + 63) / 64)), {});
+  readPasses(reader, file, head, data.mesh.vertices.size(), &data);
   return data;
+}
+
+TransferSummary summaryOf(const std::string& file) {
+  const store::Reader reader(file, kTransferKind, kVersion);
+  const Head head = readHead(reader, file);
+  const size_t vertices = reader.get<Vec3f>("positions").size();
+  TransferData data;
+  readPasses(reader, file, head, vertices, &data);
+  return {reader.sceneHash(), data.reflection.columnCount(),
+          data.passes.size(), static_cast<size_t>(data.classCount),
+          vertices,           data.recordCount(),
+          data.byteCount()};
 }
 
 }  // namespace lobelia::transfer

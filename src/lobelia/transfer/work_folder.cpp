@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 constexpr const char* kSuffix = ".block";
 constexpr const char* kKind = "transfer-block";
 constexpr uint32_t kVersion = 1;
+constexpr const char* kParents = "parents";  // block of how many folders above were made
 
 [[noreturn]] void refuse(const std::string& file) {
   throw InputError({file}, "this is no block of a precomputation; give --work a folder of its own");
@@ -35,11 +36,27 @@ bool isOf(const std::string& file, const std::string& folder, uint64_t hash) {
                    "folder, or give --work another");
 }
 
+fs::path wholePath(const std::string& path) {
+  const fs::path folder = fs::absolute(path).lexically_normal();
+  return folder.has_filename() ? folder : folder.parent_path();  // of "a/"
+}
+
+// How many folders of the path are not there.
+uint32_t countMissing(const std::string& path) {
+  fs::path folder = wholePath(path);
+  uint32_t missing = 0;
+  std::error_code error;
+  for (; !fs::exists(folder, error) && folder.has_relative_path(); folder = folder.parent_path())
+    ++missing;
+  return missing;
+}
+
 }  // namespace
 
 WorkFolder::WorkFolder(const std::string& path, uint64_t hash, Context& context)
     : path_(path), hash_(hash), context_(context) {
   std::error_code error;
+  const uint32_t missing = countMissing(path);
   fs::create_directories(path, error);
   if (error || !fs::is_directory(path))
     throw RuntimeError(fmt::format("the work folder {} cannot be made: {}", path,
@@ -52,11 +69,17 @@ WorkFolder::WorkFolder(const std::string& path, uint64_t hash, Context& context)
       leftovers.push_back(entry.path());
     else if (entry.path().extension() != kSuffix)
       refuse(file);
-    else if (isOf(file, path, hash))
+    else if (isOf(file, path, hash) && file != fileOf(kParents))
       ++found;
   }
   // Of a killed run. Only now: before, the folder might have been somebody else's.
   for (const fs::path& file : leftovers) fs::remove(file, error);
+  if (missing > 1) {
+    const uint32_t parents = missing - 1;
+    store::Writer block = writer();
+    block.add("count", std::span(&parents, 1));
+    put(kParents, block);
+  }
   if (found > 0) context.info(fmt::format("going on from {}: {} blocks are done", path, found));
 }
 
@@ -84,9 +107,14 @@ void WorkFolder::put(const std::string& name, const store::Writer& block) const 
 
 void WorkFolder::remove() {
   std::error_code error;
+  uint32_t parents = 0;
+  if (const auto block = find(kParents)) parents = block->get<uint32_t>("count").at(0);
   for (const fs::directory_entry& entry : fs::directory_iterator(path_, error))
     if (entry.path().extension() == kSuffix) fs::remove(entry.path(), error);
-  fs::remove(path_, error);
+  fs::path folder = wholePath(path_);
+  // The first that something else is in stays, and with it those above.
+  for (uint32_t i = 0; i <= parents && fs::remove(folder, error); ++i)
+    folder = folder.parent_path();
 }
 
 }  // namespace lobelia::transfer

@@ -22,7 +22,8 @@ class WorkFolder {
   store::Writer writer() const;
   void put(const std::string& name, const store::Writer& block) const;
   std::string fileOf(const std::string& name) const;
-  // Deletes the blocks, and the folder if nothing else is in it.
+  // Deletes the blocks, and the folder if nothing else is in it; then likewise the folders above it
+  // that were made for it, by this run or by one before.
   void remove();
 
  private:

@@ -51,9 +51,12 @@ const std::map<std::string, CommandTexts>& texts() {
         {{"lobelia fit gold-metallic-paint.binary -o gold.xml --lobes 3",
           "Write a material of three lobes"}}}},
       {"info",
-       {"Validates a scene and describes it, with all warnings.",
+       {"Validates a scene and describes it, with all warnings; or says what a file of "
+        "`precompute` "
+        "holds, which needs no scene.",
         {},
-        {{"lobelia info scene.pbrt --json", "Describe a scene as JSON"}}}},
+        {{"lobelia info scene.pbrt --json", "Describe a scene as JSON"},
+         {"lobelia info teapot.vmf", "Describe data of precompute"}}}},
       {"methods", {"Prints the light models, the gather strategies and which combine.", {}, {}}},
       {"scene",
        {"Writes a built-in scene as Mitsuba XML with PLY meshes and image files beside it.",

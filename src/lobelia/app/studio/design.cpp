@@ -1,5 +1,7 @@
 #include "lobelia/app/studio/design.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "lobelia/scene/material_parameters.h"
@@ -172,6 +174,15 @@ bool sameLight(const std::vector<Emitter>& a, const std::vector<Emitter>& b) {
 }
 
 uint64_t materialsHash(const Design& design) { return surfaceHash(sceneOf(design)); }
+
+std::string someOf(const std::vector<std::string>& names) {
+  constexpr size_t kShown = 6;
+  std::string text;
+  for (size_t i = 0; i < std::min(names.size(), kShown); ++i)
+    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", names[i]);
+  if (names.size() > kShown) text += fmt::format(" and {} more", names.size() - kShown);
+  return text;
+}
 
 size_t sizeOf(const Design& design) {
   size_t bytes = design.materials.size() * sizeof(Material) +

@@ -55,6 +55,9 @@ bool sameLight(const std::vector<Emitter>& a, const std::vector<Emitter>& b);
 // Of materials and their textures, images by number.
 uint64_t materialsHash(const Design& design);
 
+// Of many names, the first, in quotes.
+std::string someOf(const std::vector<std::string>& names);
+
 // About how many bytes a copy takes, images left out.
 size_t sizeOf(const Design& design);
 

@@ -173,6 +173,8 @@ std::string whyNotShown(const Picture& picture, const Picture* truth, Shown show
     return "the picture is not of white surfaces, which illuminance is measured on; choose this "
            "colour "
            "before the picture is drawn";
+  if (shown == Shown::cost && picture.method == "transfer")
+    return "transfer does not count what each pixel costs; choose another method or another colour";
   if (shown == Shown::cost && !picture.film.layers.contains("cost"))
     return "the picture has not counted its cost; choose this colour before it is drawn";
   if (shown == Shown::error && truth == nullptr && !picture.film.layers.contains("error"))

@@ -1,11 +1,14 @@
 #include "lobelia/app/studio/stage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "lobelia/app/frame_setup.h"
 #include "lobelia/app/render_frame.h"
 #include "lobelia/io/design.h"
+#include "lobelia/relight/local_sources.h"
 
 namespace lobelia::app {
 namespace {
@@ -39,6 +42,13 @@ void whiten(std::vector<Material>& materials) {
   }
 }
 
+// Emitters that are not at infinity.
+size_t lampCount(const Scene& scene) {
+  return static_cast<size_t>(
+      std::count_if(scene.emitters.begin(), scene.emitters.end(),
+                    [](const Emitter& e) { return relight::isLocal(e.type); }));
+}
+
 }  // namespace
 
 Stage::Stage(Scene scene, const std::vector<std::string>& data, Context& context)
@@ -50,6 +60,7 @@ Stage::Stage(Scene scene, const std::vector<std::string>& data, Context& context
       materials_(scene_.materials),
       textures_(scene_.textures),
       materialsHash_(materialsHash(designOf(scene_))),
+      lampsAsRead_(lampCount(scene_)),
       tracedGeometry_(geometry_),
       masked_(hasMasks()),
       tracer_(std::make_unique<Tracer>(scene_, context)) {
@@ -114,12 +125,30 @@ void Stage::requireTransfer(Use use, const Location& where) const {
                      "measured on; choose another method");
 }
 
-void Stage::sayOfMaterials(const Design& design, Context& context) {
+void Stage::sayOfMaterials(const Design& design, const Location& where, Context& context) {
   if (saidOfMaterials_ || materialsHash(design) == materialsHash_) return;
   saidOfMaterials_ = true;
+  const std::string place = where.file.empty() ? "" : toString(where) + ": ";
+  const std::vector<std::string> changed = io::changedMaterials(materials_, design.materials);
   context.warning(
-      "transfer shows the materials as they were when it was precomputed; other methods show what "
-      "was changed of them");
+      fmt::format("{}transfer shows the materials as they were when it was precomputed; other "
+                  "methods show what "
+                  "was changed{}",
+                  place, changed.empty() ? " of them" : fmt::format(": {}", someOf(changed))));
+}
+
+// Those of the scene as read are said to light nothing before frames (warnOfMissing).
+void Stage::sayOfLamps(Use use, Context& context) {
+  const bool without = forTransfer(use) || (forCuts(use) && !data_.cuts.surfaces);
+  bool& said = saidOfLamps_[forTransfer(use) ? 1 : 0];
+  if (!without || said || lampCount(scene_) <= lampsAsRead_) return;
+  said = true;
+  context.warning(
+      forTransfer(use)
+          ? "transfer has light from infinity alone: lamps that were added light nothing; other "
+            "methods show their light"
+          : "lamps that were added light nothing: the data are of light from infinity; add --data "
+            "of `lobelia precompute --light surfaces`, or choose another method");
 }
 
 void Stage::show(std::shared_ptr<const Design> design, Use use, const Location& where,
@@ -136,8 +165,9 @@ void Stage::show(std::shared_ptr<const Design> design, Use use, const Location& 
     if (!lightStands_) prepareLight(context);
     if (forTransfer(use)) {
       if (!transferLit_) prepareTransfer(context);
-      sayOfMaterials(*design, context);
+      sayOfMaterials(*design, where, context);
     }
+    sayOfLamps(use, context);
   } catch (...) {
     // Should that fail as well, nothing is shown, and the next design is prepared as a whole.
     if (auto before = std::exchange(shown_, nullptr)) show(std::move(before), use_, where, context);

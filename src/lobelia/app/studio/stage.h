@@ -40,9 +40,10 @@ class Stage {
   // as the design has them.
   enum class Use : uint8_t { cuts, transfer, paths, whiteCuts, whiteTransfer, whitePaths };
   // Shows a design. Transfer shows it with the materials of the scene as read, of which it was
-  // made; where a design has others, that is said once. Throws InputError, at `where`, when it is
-  // for cuts and changes what visibility has to know, or for what there is no data of; whenever it
-  // throws, what was shown before is shown still. Seconds: "prepare", "accel".
+  // made; where a design has others, that is said once, at `where`, and so are added lamps that
+  // light nothing for want of data. Throws InputError, at `where`, when it is for cuts and changes
+  // what visibility has to know, or for what there is no data of; whenever it throws, what was
+  // shown before is shown still. Seconds: "prepare", "accel".
   void show(std::shared_ptr<const Design> design, Use use, const Location& where, Context& context);
   // Whether what is shown is usable; throws InputError, at `where`, with the first error.
   void requireValid(const Location& where) const;
@@ -64,7 +65,8 @@ class Stage {
   bool hasMasks() const;
   void requireCuts(uint64_t geometry, const Location& where) const;
   void requireTransfer(Use use, const Location& where) const;
-  void sayOfMaterials(const Design& design, Context& context);
+  void sayOfMaterials(const Design& design, const Location& where, Context& context);
+  void sayOfLamps(Use use, Context& context);
   void prepareRays(uint64_t geometry, bool masks);
   void prepareLight(Context& context);
   void prepareTransfer(Context& context);
@@ -78,8 +80,10 @@ class Stage {
   const std::vector<Texture> textures_;
   const uint64_t materialsHash_;
   bool saidOfMaterials_ = false;
-  uint64_t tracedGeometry_;  // what tracer_ is made of
-  bool masked_;              // is any of it?
+  const size_t lampsAsRead_;
+  bool saidOfLamps_[2] = {};  // for cuts, for transfer
+  uint64_t tracedGeometry_;   // what tracer_ is made of
+  bool masked_;               // is any of it?
   std::unique_ptr<Tracer> tracer_;
   std::unique_ptr<EmitterSampler> emitters_;
   bool lightStands_ = false;  // emitters_ and cuts_ are of the scene's emitters

@@ -7,12 +7,12 @@
 #include <filesystem>
 
 #include "lobelia/app/frame_setup.h"
-#include "lobelia/app/load_scene.h"
 #include "lobelia/app/studio/design_files.h"
 #include "lobelia/app/studio/material_edits.h"
 #include "lobelia/app/studio/material_fields.h"
 #include "lobelia/app/studio/picture_maker.h"
 #include "lobelia/app/studio/screenshot.h"
+#include "lobelia/app/studio/stage_of_files.h"
 
 namespace lobelia::app {
 namespace {
@@ -52,7 +52,7 @@ void requireMaterial(const Design& design, uint32_t material) {
 }  // namespace
 
 Studio::Studio(const StudioSettings& settings, Context& context)
-    : stage_(std::make_unique<Stage>(loadScene(settings.scene, context), settings.data, context)),
+    : stage_(new Stage(stageOf(settings.scene, settings.data, context))),
       seed_(settings.seed),
       strict_(settings.scene.strict),
       inputs_(inputsOf(settings)),
@@ -67,6 +67,7 @@ Studio::Studio(const StudioSettings& settings, Context& context)
   view_.cutsDepth = stage_->cutsDepth();
   view_.transferDepth = stage_->transferDepth();
   view_.method = hasCuts_ || transferPasses_ > 0 ? stage_->data().method : ViewMethod::path;
+  warnOfMissing(stage_->data(), stage_->scene(), context);
   if (context.cancelled()) throw Cancelled{};
   thread_ = std::thread([this] { work(); });
 }
@@ -75,6 +76,8 @@ Studio::~Studio() {
   desk_.stop();
   thread_.join();
 }
+
+const ViewData& Studio::data() const { return stage_->data(); }
 
 void Studio::send() { desk_.want({history_.share(), view_}); }
 

@@ -32,6 +32,7 @@ struct StudioSettings {
 };
 
 class PictureMaker;
+struct ViewData;
 
 // What lies under a place of the picture.
 struct Picked {
@@ -55,6 +56,7 @@ class Studio {
 
   bool hasCuts() const { return hasCuts_; }
   int transferPasses() const { return transferPasses_; }  // 0: without transfer
+  const ViewData& data() const;                           // which nobody changes
   const std::string& sceneName() const { return name_; }
   // Box of the scene, for cameras and handles of lights.
   Bounds3f bounds() const { return bounds_; }

@@ -160,6 +160,15 @@ void Writer::writeChangedCameras(const Scene& before) {
 
 }  // namespace mitsuba
 
+std::vector<std::string> changedMaterials(const std::vector<Material>& before,
+                                          const std::vector<Material>& now) {
+  const std::vector<std::string> names = designNames(before);
+  std::vector<std::string> changed;
+  for (size_t i = 0; i < std::min(before.size(), now.size()); ++i)
+    if (!mitsuba::sameMaterial(before[i], now[i])) changed.push_back(names[i]);
+  return changed;
+}
+
 void writeDesign(const std::string& file, const Scene& before, const Scene& now) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   mitsuba::Writer(now, folder.empty() ? "." : folder.string()).writeDesign(file, before);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lobelia/app/transfer_frames.h"
+#include "lobelia/app/view_checks.h"
 #include "lobelia/app/viewer/window/panels.h"
 #include "lobelia/io/image_io.h"
 
@@ -39,6 +40,7 @@ Viewer::Viewer(const ViewOptions& options, Studio& studio, Surface& surface, Con
                       ? studio.view().camera
                       : cameraNamed(studio.design().cameras, options.render.camera)) {
   requireBounce(options.bounce, studio.transferPasses());
+  warnOfOptions(options, studio.data(), context);
   UiState& ui = ui_.state();
   ui.view.lightCut = options.lightCut;
   ui.view.refined = !options.plainLobes;

@@ -1,0 +1,44 @@
+#include "lobelia/transfer/adaptive_mesh.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "lobelia/transfer/mask_subdivision.h"
+
+namespace lobelia::transfer {
+namespace {
+
+constexpr size_t kAllowed = 20000;  // vertices that may be added to any scene
+
+size_t mostVertices(const TransferSettings& settings, size_t before, Context& context) {
+  if (settings.mostVertices == 0) return before + std::max(before, kAllowed);
+  if (settings.mostVertices < before)
+    context.warning(
+        fmt::format("--max-vertices {}: the scene itself has {} vertices, which are kept; none are "
+                    "added",
+                    settings.mostVertices, before));
+  return std::max(settings.mostVertices, before);
+}
+
+}  // namespace
+
+uint64_t budgetOf(const TransferSettings& settings) {
+  if (settings.memoryBytes > 0) return settings.memoryBytes;
+  return static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<uint64_t>(sysconf(_SC_PAGE_SIZE)) / 4 * 3;
+}
+
+relight::SampleMesh adaptiveMesh(const Tracer& tracer, const TransferSettings& settings,
+                                 Context& context) {
+  relight::SampleMesh mesh = splitMesh(tracer.scene());
+  const size_t before = mesh.positions().size();
+  const MaskSettings masks{settings.maskLevel, settings.maskTolerance, settings.subdivision,
+                           mostVertices(settings, before, context), budgetOf(settings) / 4};
+  if (settings.subdivision > 0) mesh = subdividedByMasks(tracer, std::move(mesh), masks, context);
+  context.debug(fmt::format("{} vertices, {} after subdivision", before, mesh.positions().size()));
+  return mesh;
+}
+
+}  // namespace lobelia::transfer
