@@ -9,7 +9,7 @@
 namespace lobelia::transfer {
 namespace {
 
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;  // 1: diffuse light in front alone
 constexpr uint32_t kMostPasses = 65;
 
 struct Head {
@@ -36,7 +36,7 @@ size_t TransferData::recordCount() const {
 }
 
 size_t TransferData::byteCount() const {
-  size_t bytes = reflection.byteCount();
+  size_t bytes = reflection.byteCount() + diffuseSides.byteCount();
   for (const TransferPass& pass : passes) {
     bytes += pass.diffuse.size() * sizeof(DiffuseLobes);
     for (const SliceRows& rows : pass.glossy) bytes += rows.byteCount();
@@ -54,6 +54,7 @@ void save(const TransferData& data, const Scene& scene, const std::string& file)
                   reflection ? 1u : 0u};
   writer.add("head", std::span(&head, 1));
   relight::addMesh(data.mesh.mesh, &writer);
+  addDiffuseSides(data.diffuseSides, &writer);
   for (size_t j = 0; j < data.passes.size(); ++j)
     addPass(data.passes[j], fmt::format("p{}", j), &writer);
   if (reflection) addRows(data.reflection, "own", &writer);
@@ -78,9 +79,13 @@ TransferData load(const std::string& file, const Scene& scene) {
   data.mesh.vertices = transferVertices(scene, data.mesh.mesh);
   const size_t rows = data.mesh.vertices.size();
   const size_t columns = GeodesicGrid(data.directionLevel).count();
+  data.diffuseSides = readDiffuseSides(reader, file, rows);
   for (uint32_t j = 0; j < head.passCount; ++j)
     data.passes.push_back(readPass(reader, file, fmt::format("p{}", j),
-                                   j == 0 ? 1 : head.classCount + 1, rows, columns));
+                                   {.classes = j == 0 ? 1 : head.classCount + 1,
+                                    .rows = rows,
+                                    .columns = columns,
+                                    .diffuse = data.diffuseSides.front(rows)}));
   // Whoever looks a vertex up finds a row, also where somebody has taken them out of the file.
   data.reflection =
       head.hasReflection != 0

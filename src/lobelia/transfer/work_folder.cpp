@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kSuffix = ".block";
 constexpr const char* kKind = "transfer-block";
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;  // 1: diffuse light in front alone
 
 [[noreturn]] void refuse(const std::string& file) {
   throw InputError({file}, "this is no block of a precomputation; give --work a folder of its own");
