@@ -9,7 +9,8 @@ using namespace lobelia;
 
 namespace {
 
-// Its reflectance is driven by an image: so that records of reflection are looked up.
+// Its reflectance is driven by an image, so that records of reflection are looked up; it has two
+// sides.
 Scene square() {
   Scene scene;
   Mesh mesh;
@@ -24,9 +25,12 @@ Scene square() {
   Material glossy;
   glossy.type = MaterialType::phong;
   glossy.specular = TextureHandle{0}, glossy.alphaU = 20.f;
-  scene.materials.push_back(glossy);
+  Material bothSides;
+  bothSides.type = MaterialType::twoSided;
+  bothSides.a = MaterialHandle{0};
+  scene.materials = {glossy, bothSides};
   Instance instance;
-  instance.mesh = MeshHandle{0}, instance.material = MaterialHandle{0};
+  instance.mesh = MeshHandle{0}, instance.material = MaterialHandle{1};
   scene.instances.push_back(instance);
   return scene;
 }
@@ -35,13 +39,14 @@ void lookUpAll(const Scene& scene, const transfer::TransferData& data,
                const transfer::ReflectionTables& tables) {
   const transfer::SliceLookup lookup(scene, data, tables);
   for (uint32_t v = 0; v < data.mesh.vertices.size(); ++v) {
-    const transfer::VertexView view =
-        lookup.view(v, normalize(Vec3f{0.3f, 0.2f, 0.5f}), transfer::Side::front);
-    lookup.visible(view);
-    for (size_t pass = 1; pass < data.passes.size(); ++pass)
-      for (size_t c = 0; c < data.passes[pass].glossy.size(); ++c) lookup.glossy(view, pass, c);
-    for (size_t pass = 0; pass < data.passes.size(); ++pass)
-      lookup.diffuse({{v, v, v}, {1, 0, 0}}, pass, Rgb(1.f));
+    for (const transfer::Side side : {transfer::Side::front, transfer::Side::back}) {
+      const transfer::VertexView view = lookup.view(v, normalize(Vec3f{0.3f, 0.2f, 0.5f}), side);
+      lookup.visible(view);
+      for (size_t pass = 1; pass < data.passes.size(); ++pass)
+        for (size_t c = 0; c < data.passes[pass].glossy.size(); ++c) lookup.glossy(view, pass, c);
+      for (size_t pass = 0; pass < data.passes.size(); ++pass)
+        lookup.diffuse({{v, v, v}, {1, 0, 0}}, side, pass, Rgb(1.f));
+    }
   }
 }
 

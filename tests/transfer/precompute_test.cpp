@@ -83,7 +83,7 @@ LobeMoment reflected(const SliceLookup& lookup, const ReflectionTables& tables,
   lookup.glossy(lookup.view(around, own, wo, side), pass, {byClass.data(), classes});
   LobeMoment all;
   for (size_t c = 0; c < classes; ++c) all.alpha += byClass[c].alpha, all.first += byClass[c].first;
-  for (const LobeMoment& m : lookup.diffuse(around, pass, own.diffuse))
+  for (const LobeMoment& m : lookup.diffuse(around, side, pass, own.diffuse))
     all.alpha += m.alpha, all.first += m.first;
   return all;
 }

@@ -163,7 +163,8 @@ TEST(SliceLookup, DiffuseLightIsLinearBetweenVertices) {
   }
   const ReflectionTables tables(square.scene);
   const SliceLookup lookup(square.scene, square.data, tables);
-  const auto octants = lookup.diffuse({{0, 1, 2}, {0.5f, 0.25f, 0.25f}}, 0, {0.2f, 0.4f, 0.8f});
+  const auto octants =
+      lookup.diffuse({{0, 1, 2}, {0.5f, 0.25f, 0.25f}}, Side::front, 0, {0.2f, 0.4f, 0.8f});
   const float share = 0.5f * 0.25f + 0.25f * 0.5f + 0.25f * 0.75f;
   EXPECT_NEAR(octants[2].alpha.z, 0.8f * share, 2e-3f);
   EXPECT_LT(

@@ -171,6 +171,8 @@ TEST_F(TransferFile, OfAnotherKindIsRefusedByName) {
       InputError);
   store::Writer("visibility-cuts", 1, transferHash(*scene_)).save(file_);
   expectRefused(*scene_, "holds 'visibility-cuts'");
+  store::Writer(kTransferKind, 1, transferHash(*scene_)).save(file_);
+  expectRefused(*scene_, "version 1");
   store::Writer(kTransferKind, 99, transferHash(*scene_)).save(file_);
   expectRefused(*scene_, "version 99");
 }
@@ -201,6 +203,13 @@ TEST_F(TransferFile, IsCheckedForSense) {
   bad = *data_;
   bad.passes[0].diffuse.pop_back();
   expectRefused(bad, "diffuse lobes for");
+  bad = *data_;
+  bad.diffuseSides = DiffuseSides(data_->mesh.vertices.size(), std::vector<uint32_t>{0, 3});
+  expectRefused(bad, "diffuse lobes for");
+  // A back of a vertex that is not there.
+  const auto last = static_cast<uint32_t>(data_->mesh.vertices.size());
+  bad.diffuseSides = DiffuseSides(last + 1, std::vector<uint32_t>{0, last});
+  expectRefused(bad, "do not ascend");
   bad = *data_;
   bad.reflection = SliceRows(162);
   bad.reflection.addRow({}, {});

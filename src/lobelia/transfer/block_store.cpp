@@ -54,14 +54,15 @@ void BlockStore::setSize(size_t blocks, size_t columns) {
   if (!folder_) inMemory_.resize(blocks);
 }
 
-std::optional<BlockPass> BlockStore::find(size_t pass, size_t block, size_t rows) {
+std::optional<BlockPass> BlockStore::find(size_t pass, size_t block, size_t rows, size_t diffuse) {
   if (!folder_) return {};
   const std::string name = nameOf(pass, block);
   const auto reader = folder_->find(name);
   if (!reader || (pass == 0 && !folder_->find(raysName(block)))) return {};
   const size_t classes = pass == 0 ? 1 : static_cast<size_t>(classCount_) + 1;
   const std::string file = folder_->fileOf(name);
-  TransferPass read = readPass(*reader, file, "p", classes, rows, columns_);
+  TransferPass read = readPass(*reader, file, "p", {classes, rows, columns_, diffuse});
+  if (read.diffuse.size() != diffuse) return {};
   BlockPass out{std::move(read.glossy), std::move(read.diffuse), {}};
   if (pass == 0) out.reflection = readRows(*reader, file, "own", rows, columns_);
   ++resumed_;

@@ -18,8 +18,9 @@ class BlockStore {
   void putMesh(const relight::SampleMesh& mesh);
   // Before blocks are asked for. columns: of rows of slices.
   void setSize(size_t blocks, size_t columns);
-  // From any thread, for different blocks. None: it has to be made. rows: vertices of the block.
-  std::optional<BlockPass> find(size_t pass, size_t block, size_t rows);
+  // From any thread, for different blocks. None: it has to be made. rows: vertices of the block;
+  // diffuse: sides of which there are diffuse lobes.
+  std::optional<BlockPass> find(size_t pass, size_t block, size_t rows, size_t diffuse);
   void put(size_t pass, size_t block, const BlockPass& made);
   BlockRays rays(size_t block) const;
   void putRays(size_t block, BlockRays rays);

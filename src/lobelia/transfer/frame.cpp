@@ -26,7 +26,8 @@ size_t passNumber(int pass, const TransferData& data) {
 struct TransferRenderer::Impl {
   Impl(const Tracer& t, const TransferData& d)
       : tracer(t), data(d), tables(t.scene()), lookup(t.scene(), d, tables) {
-    if (!d.passes.front().diffuse.empty()) unoccluded = unoccludedDiffuse(d.mesh.vertices);
+    if (!d.passes.front().diffuse.empty())
+      unoccluded = unoccludedDiffuse(d.mesh.vertices, d.diffuseSides);
   }
 
   const Tracer& tracer;

@@ -50,7 +50,7 @@ void FrameVertices::mergeNew() {
     const VertexView view = lookup_->view(vertex, eye_->from(at.p, at.n), side);
     mirrors_.push_back(view.mirror);
     visible_.push_back(light_->firstPass == 0 ? lookup_->visible(view) : VisiblePart{});
-    diffuse_.push_back(diffuseLight(vertex));
+    diffuse_.push_back(diffuseLight({vertex, side}));
     bool any = false;
     for (size_t pass = std::max<size_t>(light_->firstPass, 1); pass < light_->endPass; ++pass)
       for (size_t c = 0; c < data_->passes[pass].glossy.size(); ++c) {
@@ -74,19 +74,23 @@ Rgb FrameVertices::lightOf(const DiffuseLobes& lobes) {
   return sum;
 }
 
-Rgb FrameVertices::diffuseLight(uint32_t vertex) {
+Rgb FrameVertices::diffuseLight(SeenVertex at) {
   Rgb sum{};
+  const size_t number = data_->diffuseSides.find(at.vertex, at.side);
+  if (number == DiffuseSides::kNone) return sum;
+  const Vec3f outside = data_->mesh.vertices[at.vertex].n;
+  const Vec3f n = at.side == Side::back ? -outside : outside;
   for (size_t pass = light_->firstPass; pass < light_->endPass; ++pass) {
     const std::vector<DiffuseLobes>& lobes = data_->passes[pass].diffuse;
     if (lobes.empty()) continue;
-    const Rgb light = lightOf(lobes[vertex]);
+    const Rgb light = lightOf(lobes[number]);
     if (pass > 0) {
       sum += light;
       continue;
     }
     // Direct light: octants say which part of what would arrive does.
-    const Rgb whole = lightOf(light_->unoccluded[vertex]);
-    const Rgb exact = light_->irradiance.at(light_->toLight * data_->mesh.vertices[vertex].n);
+    const Rgb whole = lightOf(light_->unoccluded[number]);
+    const Rgb exact = light_->irradiance.at(light_->toLight * n);
     for (int c = 0; c < 3; ++c)
       sum[c] += whole[c] > 0 ? std::min(light[c] / whole[c], 1.f) * exact[c] : light[c];
   }

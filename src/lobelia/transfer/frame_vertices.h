@@ -14,7 +14,7 @@ namespace lobelia::transfer {
 struct FrameLight {
   const PrefilteredLight& prefiltered;
   const Irradiance& irradiance;
-  std::span<const DiffuseLobes> unoccluded;  // by vertex; empty where nothing is diffuse
+  std::span<const DiffuseLobes> unoccluded;  // by diffuse side; empty where nothing is diffuse
   DirectionRows toLight;                     // from the world to the light as the scene has it
   size_t firstPass = 0, endPass = 0;         // passes shown, of those there are
   Rgb lookUp(Vec3f axis, float kappa) const { return prefiltered.lookUp(toLight * axis, kappa); }
@@ -60,7 +60,7 @@ class FrameVertices {
     uint32_t vertex = 0;
     Side side = Side::front;
   };
-  Rgb diffuseLight(uint32_t vertex);
+  Rgb diffuseLight(SeenVertex at);
   Rgb lightOf(const DiffuseLobes& lobes);
 
   const SliceLookup* lookup_ = nullptr;

@@ -104,6 +104,13 @@ class Vertex {
     return out->count > 0 || out->diffuse != Rgb{};
   }
   Vec3f normal() const { return input_.data.mesh.vertices[index_].n; }
+  // f(wo) for the sides whose diffuse light is kept; wo: their normal.
+  template <class F>
+  void forDiffuseSides(const F& f) const {
+    if (!input_.anyDiffuse) return;
+    f(normal());
+    if (input_.data.diffuseSides.hasBack(index_)) f(-normal());
+  }
 
  private:
   const GatherInput& input_;
@@ -131,7 +138,7 @@ class DirectPass {
     const Vertex vertex(input_, index);
     findObstructed(vertex.normal());
     slices(vertex);
-    diffuse(vertex);
+    vertex.forDiffuseSides([&](Vec3f wo) { diffuse(vertex, wo); });
     counts_.traceNs += traced - start, counts_.gatherNs += nanosecondsNow() - traced;
   }
   uint64_t rays() const {
@@ -212,10 +219,9 @@ class DirectPass {
     records_.push_back(share < kLeastShare ? SliceRecord{} : pack({Rgb(share), sum / seen}));
   }
 
-  void diffuse(const Vertex& vertex) {
+  void diffuse(const Vertex& vertex, Vec3f wo) {
     float all = 0;
     std::array<LobeTotal, kOctants> octants;
-    const Vec3f wo = vertex.normal();
     const Bsdf part = diffusePart(vertex.bsdf(wo));
     if (part.lobeCount > 0) {
       const std::span<const uint32_t> chunks = weights_.find(part, wo);
@@ -304,7 +310,7 @@ class BouncePass {
       for (size_t s = rays.sliceStart[v]; s < rays.sliceStart[v + 1]; ++s)
         slice(vertex, rays.slices[s]);
     for (size_t c = 0; c <= classes_; ++c) out_.glossy[c].addRow(columns_[c], records_[c]);
-    diffuse(vertex, rays.diffuseWeight[v]);
+    vertex.forDiffuseSides([&](Vec3f wo) { diffuse(vertex, wo, rays.diffuseWeight[side_++]); });
     counts_.gatherNs += nanosecondsNow() - start;
   }
 
@@ -343,7 +349,7 @@ class BouncePass {
         add(before_ > 0 && c + 1 == glossy.size() ? &broad : &narrow, byClass[c]);
     }
     if (luminance(own.diffuse) > 0 && !input_.diffuseBefore.empty())
-      add(&broad, diffuseOf(around, own.diffuse));
+      add(&broad, diffuseOf(around, side, own.diffuse));
     if (narrow.alpha != Rgb{} || broad.alpha != Rgb{}) any_ = true;
     in.narrow = numbersOf(narrow), in.broad = numbersOf(broad);
     return in;
@@ -353,10 +359,12 @@ class BouncePass {
     to->alpha += m.alpha, to->first += m.first;
   }
 
-  LobeMoment diffuseOf(const relight::SurroundingVertices& around, Rgb albedo) const {
+  LobeMoment diffuseOf(const relight::SurroundingVertices& around, Side side, Rgb albedo) const {
     LobeMoment all;
     for (size_t i = 0; i < 3; ++i) {
-      const LobeMoment& m = input_.diffuseBefore[around.vertex[i]];
+      const size_t at = input_.data.diffuseSides.find(around.vertex[i], side);
+      if (at == DiffuseSides::kNone) continue;
+      const LobeMoment& m = input_.diffuseBefore[at];
       all.alpha += m.alpha * around.weight[i], all.first += m.first * around.weight[i];
     }
     const float energy = luminance(all.alpha);
@@ -413,11 +421,10 @@ class BouncePass {
     }
   }
 
-  void diffuse(const Vertex& vertex, float all) {
+  void diffuse(const Vertex& vertex, Vec3f wo, float all) {
     DiffuseLobes lobes{};
     if (all > 0 && any_) {
       std::array<Numbers, kOctants> octants{};
-      const Vec3f wo = vertex.normal();
       const Bsdf part = diffusePart(vertex.bsdf(wo));
       chunks_.clear();
       for (const uint32_t c : weights_.find(part, wo))
@@ -451,6 +458,7 @@ class BouncePass {
   LobeWeights weights_;
   const RaySphere* sphere_ = nullptr;  // of the vertex under way
   size_t word_ = 0;                    // where the next vertex's bits begin
+  size_t side_ = 0;                    // the next with diffuse light
   std::span<const uint64_t> blocked_;
   std::vector<uint32_t> firstHit_;  // by chunk: its first among incoming_
   std::vector<Incoming> incoming_;  // by hit

@@ -7,7 +7,8 @@
 //    exact whatever the grid: what arrives along all rays is shared out, none is made.
 //  - [eq. 9]: visible light counts; its V is 1 where something is in the way (methods.md 3.2).
 //  - [eqs. 10, 11] gather (alpha, alpha r), whose sums are exact in energy and mean direction.
-//  - What diffuse lobes receive is kept once for each vertex, not for each slice (transfer_data.h).
+//  - What diffuse lobes receive is kept once for each side of a vertex, not for each slice
+//    (transfer_data.h).
 #pragma once
 
 #include "lobelia/base/context.h"
@@ -30,9 +31,10 @@ struct GatherInput {
   const SliceLookup& lookup;
   const relight::VertexFaces& faces;
   std::span<const uint32_t> instanceOf;  // by triangle of the scene
-  // By vertex: what its diffuse lobes receive in the pass before, all octants together, for an
-  // albedo of 1. Empty: nothing.
+  // By side of a vertex (data.diffuseSides): what its diffuse lobes receive in the pass before, all
+  // octants together, for an albedo of 1. Empty: nothing.
   std::span<const LobeMoment> diffuseBefore;
+  bool anyDiffuse = true;  // false: nothing has diffuse lobes, and passes are to have none
 };
 
 // A slice that sees something: its column, and the sum of its weights over all rays.
@@ -49,7 +51,7 @@ struct BlockRays {
   std::vector<RayHit> hits;
   std::vector<uint32_t> sliceStart{0};  // by vertex, and the end
   std::vector<SeeingSlice> slices;
-  std::vector<float> diffuseWeight;  // by vertex: of the diffuse lobes; 0: none
+  std::vector<float> diffuseWeight;  // by side with diffuse light: of its lobes; 0: none
   size_t count() const { return hitStart.size() - 1; }
 };
 

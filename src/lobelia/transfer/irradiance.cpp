@@ -7,6 +7,22 @@ namespace {
 
 constexpr int kNormalLevel = 3, kLightLevel = 5, kOctantLevel = 4;
 
+DiffuseLobes openHemisphere(const GeodesicGrid& grid, Vec3f n) {
+  std::array<float, kOctants> share{};
+  std::array<Vec3f, kOctants> first{};
+  float all = 0;
+  for (size_t i = 0; i < grid.count(); ++i) {
+    const Vec3f d = grid.directions()[i];
+    const float weight = std::max(dot(n, d), 0.f) * grid.solidAngles()[i];
+    if (weight <= 0) continue;
+    share[octantOf(d)] += weight, first[octantOf(d)] += d * weight, all += weight;
+  }
+  DiffuseLobes out{};
+  for (size_t o = 0; o < kOctants; ++o)
+    if (share[o] > 0) out[o] = pack({Rgb(share[o] / all), first[o] / share[o]});
+  return out;
+}
+
 }  // namespace
 
 Irradiance::Irradiance(const PrefilteredLight& light)
@@ -37,21 +53,13 @@ Rgb Irradiance::at(Vec3f n) const {
   return sum;
 }
 
-std::vector<DiffuseLobes> unoccludedDiffuse(std::span<const TransferVertex> vertices) {
+std::vector<DiffuseLobes> unoccludedDiffuse(std::span<const TransferVertex> vertices,
+                                            const DiffuseSides& sides) {
   const GeodesicGrid grid(kOctantLevel);
-  std::vector<DiffuseLobes> out(vertices.size());
+  std::vector<DiffuseLobes> out(sides.front(vertices.size()));
   parallelFor(vertices.size(), 64, [&](size_t v) {
-    std::array<float, kOctants> share{};
-    std::array<Vec3f, kOctants> first{};
-    float all = 0;
-    for (size_t i = 0; i < grid.count(); ++i) {
-      const Vec3f d = grid.directions()[i];
-      const float weight = std::max(dot(vertices[v].n, d), 0.f) * grid.solidAngles()[i];
-      if (weight <= 0) continue;
-      share[octantOf(d)] += weight, first[octantOf(d)] += d * weight, all += weight;
-    }
-    for (size_t o = 0; o < kOctants; ++o)
-      if (share[o] > 0) out[v][o] = pack({Rgb(share[o] / all), first[o] / share[o]});
+    out[sides.front(v)] = openHemisphere(grid, vertices[v].n);
+    if (sides.hasBack(v)) out[sides.find(v, Side::back)] = openHemisphere(grid, -vertices[v].n);
   });
   return out;
 }

@@ -23,6 +23,7 @@ class Irradiance {
 };
 
 // The lobes of octants of unoccluded vertices, as TransferPass::diffuse has them of others.
-std::vector<DiffuseLobes> unoccludedDiffuse(std::span<const TransferVertex> vertices);
+std::vector<DiffuseLobes> unoccludedDiffuse(std::span<const TransferVertex> vertices,
+                                            const DiffuseSides& sides);
 
 }  // namespace lobelia::transfer

@@ -69,8 +69,8 @@ class Precomputation {
     data_.classCount = settings_.classCount;
     const SliceLookup lookup(tracer_.scene(), data_, tables_);
     const std::vector<uint8_t> raysOf = raysOfVertices();
-    GatherInput input{tracer_, rays_,  raysOf, directions_, tables_,
-                      data_,   lookup, faces,  instanceOf,  {}};
+    GatherInput input{tracer_, rays_, raysOf,     directions_, tables_,    data_,
+                      lookup,  faces, instanceOf, {},          anyDiffuse_};
     blocks_ = (data_.mesh.vertices.size() + kBlock - 1) / kBlock;
     store_.setSize(blocks_, directions_.count());
     direct(input);
@@ -98,6 +98,9 @@ class Precomputation {
       store_.putMesh(data_.mesh.mesh);
     }
     data_.mesh.vertices = transferVertices(tracer_.scene(), data_.mesh.mesh);
+    const DiffuseVertices diffuse = findDiffuse(tracer_.scene(), data_.mesh.vertices);
+    data_.diffuseSides = DiffuseSides(data_.mesh.vertices.size(), diffuse.backs);
+    anyDiffuse_ = diffuse.any;
     context_.statistics.addCount("vertices", data_.mesh.vertices.size());
   }
 
@@ -113,6 +116,13 @@ class Precomputation {
 
   size_t end(size_t block) const {
     return std::min((block + 1) * kBlock, data_.mesh.vertices.size());
+  }
+
+  std::optional<BlockPass> storedPass(size_t pass, size_t block) {
+    const size_t first = block * kBlock, last = end(block);
+    const DiffuseSides& sides = data_.diffuseSides;
+    return store_.find(pass, block, last - first,
+                       anyDiffuse_ ? sides.front(last) - sides.front(first) : 0);
   }
 
   // Blocks one after the other, as many at a time as there are threads; what they give is taken in
@@ -152,8 +162,7 @@ class Precomputation {
     BlockCounts counts;
     std::mutex mutex;
     forBlocks("rays and direct light", [&](size_t b) {
-      if (std::optional<BlockPass> known = store_.find(0, b, end(b) - b * kBlock))
-        return std::move(*known);
+      if (std::optional<BlockPass> known = storedPass(0, b)) return std::move(*known);
       BlockPass pass;
       BlockRays rays;
       BlockCounts mine;
@@ -185,8 +194,7 @@ class Precomputation {
     BlockCounts counts;
     std::mutex mutex;
     forBlocks("bounces", [&](size_t b) {
-      if (std::optional<BlockPass> known = store_.find(j, b, end(b) - b * kBlock))
-        return std::move(*known);
+      if (std::optional<BlockPass> known = storedPass(j, b)) return std::move(*known);
       BlockPass pass;
       BlockCounts mine;
       bounceBlock(input, j, store_.rays(b), &pass, &mine);
@@ -240,6 +248,7 @@ class Precomputation {
   const std::vector<RaySphere> rays_;
   BlockStore store_;
   TransferData data_;
+  bool anyDiffuse_ = false;
   size_t blocks_ = 0;
 };
 

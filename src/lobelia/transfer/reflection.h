@@ -54,7 +54,6 @@ class ReflectionTables {
   // there is none.
   float sharpest() const;
   float sharpest(MaterialHandle material) const;  // of one; that of all where it has no table
-  bool anyDiffuse() const;
 
  private:
   struct Impl;

@@ -209,11 +209,6 @@ void ReflectionTable::sortByWidth() {
   }
 }
 
-bool ReflectionTable::anyDiffuse() const {
-  return std::any_of(nodes_.begin(), nodes_.end(),
-                     [](const Node& node) { return maxComponent(node.diffuse) > 0; });
-}
-
 float ReflectionTable::sharpest() const {
   const auto count = static_cast<size_t>(lobeCount_);
   float most = 0;

@@ -18,7 +18,6 @@ class ReflectionTable {
   ReflectionTable(const std::function<Bsdf(Vec3f wo)>& bsdfFor, bool behind);
 
   bool reflects() const { return !nodes_.empty(); }
-  bool anyDiffuse() const;
   // Of lobes that have a tenth of the energy, up to 45 degrees from the normal: towards grazing
   // angles lobes get long and thin, without end. 0: there is none.
   float sharpest() const;

@@ -41,13 +41,9 @@ std::unique_ptr<Sides> tablesOf(const Scene& scene, uint32_t instance) {
   return std::make_unique<Sides>(Sides{ReflectionTable(at, false), ReflectionTable(at, true)});
 }
 
-// What is asked of all materials, of an instance whose material has no table.
-struct Extremes {
+// Of an instance whose material has no table.
+float sharpestOf(const Scene& scene, uint32_t instance) {
   float sharpest = 0;
-  bool anyDiffuse = false;
-};
-Extremes extremesOf(const Scene& scene, uint32_t instance) {
-  Extremes out;
   const size_t triangles = scene[scene.instances[instance].mesh].triangles.size();
   const size_t looks = std::min<size_t>(triangles, kMostTriangles);
   for (size_t i = 0; i < looks; ++i)
@@ -56,17 +52,16 @@ Extremes extremesOf(const Scene& scene, uint32_t instance) {
       const Vec3f wo(0.05f, 0, side);
       const Reflection r =
           reflectionOf(bsdfAt(scene, instance, triangle, normalize(wo)), normalize(wo));
-      out.anyDiffuse |= maxComponent(r.diffuse) > 0;
-      if (r.count > 0) out.sharpest = std::max(out.sharpest, r.lobes[0].kappa);
+      if (r.count > 0) sharpest = std::max(sharpest, r.lobes[0].kappa);
     }
-  return out;
+  return sharpest;
 }
 
 }  // namespace
 
 struct ReflectionTables::Impl {
   std::vector<std::unique_ptr<Sides>> tables;  // by material
-  Extremes extremes;
+  float sharpest = 0;
 };
 
 ReflectionTables::ReflectionTables(const Scene& scene) : impl_(std::make_unique<Impl>()) {
@@ -81,19 +76,15 @@ ReflectionTables::ReflectionTables(const Scene& scene) : impl_(std::make_unique<
     const MaterialHandle material{static_cast<uint32_t>(i)};
     if (users[i] && !isTextured(scene, material)) impl_->tables[i] = tablesOf(scene, *users[i]);
   });
-  std::vector<Extremes> found(scene.instances.size());
+  std::vector<float> found(scene.instances.size());
   parallelFor(scene.instances.size(), 1, [&](size_t i) {
     const MaterialHandle material = scene.instances[i].material;
-    if (material.valid() && !has(material)) found[i] = extremesOf(scene, static_cast<uint32_t>(i));
+    if (material.valid() && !has(material)) found[i] = sharpestOf(scene, static_cast<uint32_t>(i));
   });
   for (const auto& sides : impl_->tables)
     if (sides)
-      for (const ReflectionTable& table : *sides)
-        found.push_back({table.sharpest(), table.anyDiffuse()});
-  for (const Extremes& one : found) {
-    impl_->extremes.sharpest = std::max(impl_->extremes.sharpest, one.sharpest);
-    impl_->extremes.anyDiffuse |= one.anyDiffuse;
-  }
+      for (const ReflectionTable& table : *sides) found.push_back(table.sharpest());
+  for (const float one : found) impl_->sharpest = std::max(impl_->sharpest, one);
 }
 
 ReflectionTables::~ReflectionTables() = default;
@@ -118,7 +109,7 @@ bool ReflectionTables::summary(MaterialHandle material, Vec3f n, Vec3f wo, Refle
   return true;
 }
 
-float ReflectionTables::sharpest() const { return impl_->extremes.sharpest; }
+float ReflectionTables::sharpest() const { return impl_->sharpest; }
 
 float ReflectionTables::sharpest(MaterialHandle material) const {
   if (!has(material)) return sharpest();
@@ -127,7 +118,5 @@ float ReflectionTables::sharpest(MaterialHandle material) const {
     most = std::max(most, table.sharpest());
   return most;
 }
-
-bool ReflectionTables::anyDiffuse() const { return impl_->extremes.anyDiffuse; }
 
 }  // namespace lobelia::transfer

@@ -6,7 +6,7 @@
 //  - Samples are of a low-discrepancy sequence and follow the BRDF itself, not its vMF fit.
 //  - Shares are relative to the sum of the samples' own weights: where nothing is in the way they
 //    are 1 without noise.
-//  - Diffuse lobes are sampled for each vertex, not for each slice.
+//  - Diffuse lobes are sampled for each side of a vertex, not for each slice.
 //  - What few samples add to the length of their mean is taken off (sample_lobe.h).
 #include "lobelia/transfer/scatter.h"
 
@@ -35,6 +35,8 @@ struct ScatterInput {
   const relight::VertexFaces& faces;
   const ReflectionTables& tables;
   const GeodesicGrid& directions;
+  const DiffuseSides& sides;
+  bool anyDiffuse;
   size_t passes, classCount;
   int rays;  // of a slice
   uint64_t seed;
@@ -91,7 +93,11 @@ class BlockScatter {
       for (size_t c = 0; c < classes(j); ++c)
         out_[j].glossy[c].addRow(row(j, c).columns, row(j, c).records);
     out_[0].reflection.addRow(own_.columns, own_.records);
-    diffuse(stream + input_.directions.count());
+    if (!input_.anyDiffuse) return;
+    diffuse(n_, stream + input_.directions.count());
+    // After the streams of all vertices.
+    if (input_.sides.hasBack(vertex))
+      diffuse(-n_, input_.mesh.vertices.size() * (input_.directions.count() + 1) + vertex);
   }
 
   uint64_t rays() const { return paths_.segments(); }
@@ -160,12 +166,13 @@ class BlockScatter {
       }
   }
 
-  void diffuse(uint64_t stream) {
-    const Bsdf part = diffusePart(bsdf(n_));
+  // Towards wo, the normal of one side.
+  void diffuse(Vec3f wo, uint64_t stream) {
+    const Bsdf part = diffusePart(bsdf(wo));
     diffuse_.clear();
     if (part.lobeCount > 0)
       scatter(
-          part, n_, stream, input_.rays * static_cast<int>(kOctants),
+          part, wo, stream, input_.rays * static_cast<int>(kOctants),
           [](const PathEnd& e) { return size_t{octantOf(e.d)}; }, &diffuse_);
     for (size_t j = 0; j < input_.passes; ++j) {
       DiffuseLobes lobes{};
@@ -246,17 +253,15 @@ TransferData scatterTransfer(const Tracer& tracer, TransferMesh mesh,
   data.passes.resize(static_cast<size_t>(settings.bounces) + 1);
   const relight::VertexFaces faces(scene, data.mesh.mesh, relight::leafTriangles(data.mesh.mesh),
                                    relight::bothSidesOf(scene));
+  const DiffuseVertices diffuse = findDiffuse(scene, data.mesh.vertices);
+  data.diffuseSides = DiffuseSides(data.mesh.vertices.size(), diffuse.backs);
   const ReflectionTables tables(scene);
   const GeodesicGrid directions(settings.directionLevel);
-  const ScatterInput input{tracer,
-                           data.mesh,
-                           faces,
-                           tables,
-                           directions,
-                           data.passes.size(),
-                           static_cast<size_t>(settings.classCount),
-                           raysPerSlice,
-                           context.seed};
+  const ScatterInput input{
+      tracer,       data.mesh,          faces,
+      tables,       directions,         data.diffuseSides,
+      diffuse.any,  data.passes.size(), static_cast<size_t>(settings.classCount),
+      raysPerSlice, context.seed};
   const BlockCounts counts = scatterBlocks(input, context, &data);
   Statistics& s = context.statistics;
   s.addCount("transfer_rays", counts.rays);

@@ -66,17 +66,31 @@ void addPass(const TransferPass& pass, const std::string& name, store::Writer* w
 }
 
 TransferPass readPass(const store::Reader& reader, const std::string& file, const std::string& name,
-                      size_t classes, size_t rows, size_t columns) {
+                      const PassSize& size) {
   TransferPass pass;
-  for (size_t c = 0; c < classes; ++c)
-    pass.glossy.push_back(readRows(reader, file, fmt::format("{}g{}", name, c), rows, columns));
+  for (size_t c = 0; c < size.classes; ++c)
+    pass.glossy.push_back(
+        readRows(reader, file, fmt::format("{}g{}", name, c), size.rows, size.columns));
   const std::vector<SliceRecord> records = readRecords(reader, file, name + "d");
-  if (!records.empty() && records.size() != rows * kOctants)
-    damaged(file,
-            fmt::format("'{}' has {} diffuse lobes for {} vertices", name, records.size(), rows));
+  if (!records.empty() && records.size() != size.diffuse * kOctants)
+    damaged(file, fmt::format("'{}' has {} diffuse lobes for {} sides of vertices", name,
+                              records.size(), size.diffuse));
   pass.diffuse.resize(records.size() / kOctants);
   for (size_t i = 0; i < records.size(); ++i) pass.diffuse[i / kOctants][i % kOctants] = records[i];
   return pass;
+}
+
+void addDiffuseSides(const DiffuseSides& sides, store::Writer* writer) {
+  const std::vector<uint32_t> backs = sides.backs();
+  writer->add("backs", spanOf(backs));
+}
+
+DiffuseSides readDiffuseSides(const store::Reader& reader, const std::string& file, size_t rows) {
+  try {
+    return {rows, reader.get<uint32_t>("backs")};
+  } catch (const std::invalid_argument& e) {
+    damaged(file, e.what());
+  }
 }
 
 }  // namespace lobelia::transfer

@@ -14,9 +14,17 @@ void addRows(const SliceRows& rows, const std::string& name, store::Writer* writ
 SliceRows readRows(const store::Reader& reader, const std::string& file, const std::string& name,
                    size_t rows, size_t columns);
 // The same of a pass: its rows are "NAMEg0", "NAMEg1"... by class, its diffuse lobes "NAMEd".
-// classes: of glossy lobes.
+struct PassSize {
+  size_t classes = 1;  // of glossy lobes
+  size_t rows = 0, columns = 0;
+  size_t diffuse = 0;  // sides of vertices, of all of which there are diffuse lobes or of none
+};
 void addPass(const TransferPass& pass, const std::string& name, store::Writer* writer);
 TransferPass readPass(const store::Reader& reader, const std::string& file, const std::string& name,
-                      size_t classes, size_t rows, size_t columns);
+                      const PassSize& size);
+// "backs": the vertices that are diffuse behind. Throws InputError unless all are below rows, and
+// ascend.
+void addDiffuseSides(const DiffuseSides& sides, store::Writer* writer);
+DiffuseSides readDiffuseSides(const store::Reader& reader, const std::string& file, size_t rows);
 
 }  // namespace lobelia::transfer

@@ -139,17 +139,20 @@ void SliceLookup::glossy(const PlaceView& view, size_t pass, std::span<LobeMomen
 }
 
 std::array<LobeMoment, kOctants> SliceLookup::diffuse(const relight::SurroundingVertices& around,
-                                                      size_t pass, Rgb albedo) const {
+                                                      Side side, size_t pass, Rgb albedo) const {
   std::array<LobeMoment, kOctants> out;
   const std::vector<DiffuseLobes>& lobes = data_.passes[pass].diffuse;
   if (lobes.empty()) return out;
-  for (size_t v = 0; v < 3; ++v)
+  for (size_t v = 0; v < 3; ++v) {
+    const size_t number = data_.diffuseSides.find(around.vertex[v], side);
+    if (number == DiffuseSides::kNone) continue;
     for (size_t octant = 0; octant < kOctants; ++octant) {
-      const TransferLobe lobe = unpack(lobes[around.vertex[v]][octant]);
+      const TransferLobe lobe = unpack(lobes[number][octant]);
       const Rgb alpha = albedo * lobe.share * around.weight[v];
       out[octant].alpha += alpha;
       out[octant].first += lobe.r * luminance(alpha);
     }
+  }
   return out;
 }
 

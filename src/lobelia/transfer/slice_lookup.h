@@ -7,7 +7,6 @@
 
 #include "lobelia/transfer/lobe_sum.h"
 #include "lobelia/transfer/reflection.h"
-#include "lobelia/transfer/side.h"
 #include "lobelia/transfer/transfer_data.h"
 #include "lobelia/transfer/visible_part.h"
 
@@ -65,9 +64,9 @@ class SliceLookup {
   // At a place: what its glossy lobes reflect of a pass, by class (passes[pass].glossy.size()).
   void glossy(const PlaceView& view, size_t pass, std::span<LobeMoment> byClass) const;
   // What its diffuse lobes of this albedo reflect of a pass, by the octant the light comes from;
-  // nothing where the data have none.
-  std::array<LobeMoment, kOctants> diffuse(const relight::SurroundingVertices& around, size_t pass,
-                                           Rgb albedo) const;
+  // nothing where the data have none of that side.
+  std::array<LobeMoment, kOctants> diffuse(const relight::SurroundingVertices& around, Side side,
+                                           size_t pass, Rgb albedo) const;
 
  private:
   bool reflectsBehind(MaterialHandle material) const {

@@ -6,7 +6,7 @@
 //
 //  - What the diffuse lobes receive does not depend on the eye and is kept for each vertex
 //    (`diffuse`), by the octant of the sphere from which it comes: eight lobes, whose sum the paper
-//    has as one, for every direction.
+//    has as one, for every direction. Where surfaces are diffuse behind as well, eight more.
 //  - What the glossy lobes receive is kept for each vertex and direction to the eye (`glossy`).
 //    Pass 0 has one class, and stores only where something is in the way: elsewhere the transfer is
 //    the material's own lobe. Its r is that of the visible part. Passes after it have classCount
@@ -18,6 +18,7 @@
 #include <string>
 
 #include "lobelia/base/error.h"
+#include "lobelia/transfer/diffuse_sides.h"
 #include "lobelia/transfer/geodesic_grid.h"
 #include "lobelia/transfer/slice_rows.h"
 #include "lobelia/transfer/transfer_mesh.h"
@@ -33,8 +34,9 @@ inline uint32_t octantOf(Vec3f d) {
 using DiffuseLobes = std::array<SliceRecord, kOctants>;
 
 struct TransferPass {
-  std::vector<SliceRows> glossy;      // by class
-  std::vector<DiffuseLobes> diffuse;  // by vertex; empty where no material has diffuse lobes
+  std::vector<SliceRows> glossy;  // by class
+  // By number of TransferData::diffuseSides; empty where nothing has diffuse lobes.
+  std::vector<DiffuseLobes> diffuse;
 };
 
 struct TransferData {
@@ -43,6 +45,7 @@ struct TransferData {
   // meets; 1: all in one.
   int classCount = 1;
   TransferMesh mesh;
+  DiffuseSides diffuseSides;
   std::vector<TransferPass> passes;  // at least one
   // What the glossy lobes reflect where nothing is in the way, for vertices whose material has no
   // table (materials with textures, anisotropic ones): share is the albedo itself. A row for each

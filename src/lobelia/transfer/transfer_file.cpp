@@ -10,7 +10,7 @@
 namespace lobelia::transfer {
 namespace {
 
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;  // 1: diffuse light in front alone, no buried vertices
 constexpr uint32_t kMostPasses = 65;
 
 struct Head {
@@ -37,9 +37,13 @@ void readPasses(const store::Reader& reader, const std::string& file, const Head
   data->directionLevel = static_cast<int>(head.directionLevel);
   data->classCount = static_cast<int>(head.classCount);
   const size_t columns = GeodesicGrid(data->directionLevel).count();
+  data->diffuseSides = readDiffuseSides(reader, file, rows);
   for (uint32_t j = 0; j < head.passCount; ++j)
     data->passes.push_back(readPass(reader, file, fmt::format("p{}", j),
-                                    j == 0 ? 1 : head.classCount + 1, rows, columns));
+                                    {.classes = j == 0 ? 1 : head.classCount + 1,
+                                     .rows = rows,
+                                     .columns = columns,
+                                     .diffuse = data->diffuseSides.front(rows)}));
   // Whoever looks a vertex up finds a row, also where somebody has taken them out of the file.
   data->reflection =
       head.hasReflection != 0
@@ -57,7 +61,7 @@ size_t TransferData::recordCount() const {
 }
 
 size_t TransferData::byteCount() const {
-  size_t bytes = reflection.byteCount();
+  size_t bytes = reflection.byteCount() + diffuseSides.byteCount();
   for (const TransferPass& pass : passes) {
     bytes += pass.diffuse.size() * sizeof(DiffuseLobes);
     for (const SliceRows& rows : pass.glossy) bytes += rows.byteCount();
@@ -75,6 +79,7 @@ void save(const TransferData& data, const Scene& scene, const std::string& file)
                   reflection ? 1u : 0u};
   writer.add("head", std::span(&head, 1));
   relight::addMesh(data.mesh.mesh, &writer);
+  addDiffuseSides(data.diffuseSides, &writer);
   writer.add("buried", std::span(data.mesh.buried.data(), data.mesh.buried.size()));
   for (size_t j = 0; j < data.passes.size(); ++j)
     addPass(data.passes[j], fmt::format("p{}", j), &writer);

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kSuffix = ".block";
 constexpr const char* kKind = "transfer-block";
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;  // 1: diffuse light in front alone
 constexpr const char* kParents = "parents";  // block of how many folders above were made
 
 [[noreturn]] void refuse(const std::string& file) {
