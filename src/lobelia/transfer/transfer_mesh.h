@@ -24,7 +24,7 @@ struct TransferMesh {
   relight::SampleMesh mesh;              // its positions are those of vertices
   std::vector<TransferVertex> vertices;  // by the mesh's number
   // By vertex: is it inside of another object (buried_vertices.h)? Empty: none is.
-  std::vector<uint8_t> buried;
+  std::vector<uint8_t> buried{};
 
   // The vertices around a place, and their weights. Buried ones have none unless all are: between
   // bodies that go through one another what is known outside holds up to where they meet.
