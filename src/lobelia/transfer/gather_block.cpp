@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "lobelia/transfer/arrivals.h"
 #include "lobelia/transfer/lobe_weights.h"
 
 namespace lobelia::transfer {
@@ -12,9 +13,6 @@ namespace {
 // Slices of which less than this is in the way are taken for whole, and shares of a bounce below
 // it for nothing: a thousandth of a surface's own reflection.
 constexpr float kLeastShare = 1e-3f;
-
-// Cosine below which an interpolated normal may face away where its surface does not.
-constexpr float kGrazing = 0.02f;
 
 constexpr size_t kLanes = relight::kChunk;
 constexpr uint32_t kAllLanes = (1u << kLanes) - 1;
@@ -65,17 +63,20 @@ class LobeWeights {
 // Sums over the lanes of chunks, lane by lane, which compilers turn into registers.
 struct LaneSums {
   using Lanes = std::array<float, kLanes>;
-  Lanes all{}, seen{}, x{}, y{}, z{};
+  Lanes all{}, cells{}, seen{}, x{}, y{}, z{};
 
-  void add(const RaySphere& sphere, uint32_t chunk, const float* weights, uint32_t free) {
+  // cellSolidAngle: by lane, of what bounces gather in.
+  void add(const RaySphere& sphere, const float* cellSolidAngle, uint32_t chunk,
+           const float* weights, uint32_t free) {
     Lanes visible;
     for (size_t l = 0; l < kLanes; ++l) visible[l] = static_cast<float>(free >> l & 1);
     const size_t at = chunk * kLanes;
     const float *solid = &sphere.solidAngle[at], *dx = &sphere.chunks.x[at],
-                *dy = &sphere.chunks.y[at], *dz = &sphere.chunks.z[at];
+                *dy = &sphere.chunks.y[at], *dz = &sphere.chunks.z[at], *cell = cellSolidAngle + at;
     for (size_t l = 0; l < kLanes; ++l) {
       const float weight = weights[l] * solid[l], v = weight * visible[l];
       all[l] += weight, seen[l] += v;
+      cells[l] += weights[l] * cell[l];
       x[l] += v * dx[l], y[l] += v * dy[l], z[l] += v * dz[l];
     }
   }
@@ -131,6 +132,8 @@ class DirectPass {
   void add(size_t index) {
     const int64_t start = nanosecondsNow();
     sphere_ = &input_.rays[input_.raysOf[index]];
+    const RayCells* const cells = input_.cellsOf[index];
+    cellSolidAngle_ = cells ? cells->solidAngle.data() : sphere_->solidAngle.data();
     weights_.setDirections(sphere_->chunks);
     tracers_[input_.raysOf[index]].trace(input_.faces.at(index), &rays_);
     const int64_t traced = nanosecondsNow();
@@ -202,7 +205,7 @@ class DirectPass {
     const float* w = weights_.evaluate(part, wo, chunks);
     LaneSums sums;
     for (size_t j = 0; j < chunks.size(); ++j, w += kLanes)
-      sums.add(*sphere_, chunks[j], w, lanesOf(rays_.free, chunks[j]));
+      sums.add(*sphere_, cellSolidAngle_, chunks[j], w, lanesOf(rays_.free, chunks[j]));
     const float all = sums.total(sums.all), seen = sums.total(sums.seen);
     const Vec3f sum{sums.total(sums.x), sums.total(sums.y), sums.total(sums.z)};
     if (!std::isfinite(all)) {
@@ -214,13 +217,13 @@ class DirectPass {
       return;
     }
     const float share = seen / all;
-    out_.slices.push_back({k, all});
+    out_.slices.push_back({k, sums.total(sums.cells)});
     columns_.push_back(k);
     records_.push_back(share < kLeastShare ? SliceRecord{} : pack({Rgb(share), sum / seen}));
   }
 
   void diffuse(const Vertex& vertex, Vec3f wo) {
-    float all = 0;
+    float all = 0, cells = 0;
     std::array<LobeTotal, kOctants> octants;
     const Bsdf part = diffusePart(vertex.bsdf(wo));
     if (part.lobeCount > 0) {
@@ -231,14 +234,14 @@ class DirectPass {
         for (size_t l = 0; l < kLanes; ++l) {
           const size_t i = chunks[j] * kLanes + l;
           const float weight = w[l] * sphere_->solidAngle[i];
-          all += weight;
+          all += weight, cells += w[l] * cellSolidAngle_[i];
           if ((free >> l & 1) == 0 || weight <= 0) continue;
           const Vec3f d{sphere_->chunks.x[i], sphere_->chunks.y[i], sphere_->chunks.z[i]};
           octants[transfer::octantOf(d)].add(weight, {Rgb(1), d});
         }
       }
     }
-    out_.diffuseWeight.push_back(std::isfinite(all) ? all : 0);
+    out_.diffuseWeight.push_back(std::isfinite(all) ? cells : 0);
     if (!std::isfinite(all)) ++counts_.nonFinite;
     DiffuseLobes lobes{};
     for (size_t o = 0; o < kOctants && all > 0 && std::isfinite(all); ++o)
@@ -252,6 +255,7 @@ class DirectPass {
   BlockCounts& counts_;
   std::vector<RayTracer> tracers_;     // by sphere
   const RaySphere* sphere_ = nullptr;  // of the vertex under way
+  const float* cellSolidAngle_ = nullptr;
   LobeWeights weights_;
   VertexRays rays_;
   std::array<std::vector<uint8_t>, 2> obstructed_;  // by side and chunk
@@ -259,14 +263,6 @@ class DirectPass {
   std::vector<SliceRecord> records_, ownRecords_;
 };
 
-// A moment as numbers of which compilers make registers; the last two are 0.
-using Numbers = std::array<float, 8>;
-Numbers numbersOf(const LobeMoment& m) {
-  return {m.alpha.x, m.alpha.y, m.alpha.z, m.first.x, m.first.y, m.first.z, 0, 0};
-}
-void addTo(Numbers* sum, float weight, const Numbers& n) {
-  for (size_t i = 0; i < n.size(); ++i) (*sum)[i] += weight * n[i];
-}
 // total: of the weights of all rays.
 TransferLobe lobeOf(const Numbers& n, float total) {
   return LobeTotal{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}}.lobe(total);
@@ -274,19 +270,11 @@ TransferLobe lobeOf(const Numbers& n, float total) {
 
 uint32_t octantOf(const Numbers& n) { return transfer::octantOf(Vec3f(n[3], n[4], n[5])); }
 
-// What arrives along a ray that ends at a surface: of paths with glossy reflections alone, and of
-// others.
-struct alignas(32) Incoming {
-  Numbers narrow, broad;
-  int narrowClass = 0;
-};
-
 class BouncePass {
  public:
   BouncePass(const GatherInput& input, size_t pass, BlockPass* out, BlockCounts* counts)
       : input_(input),
-        scene_(input.tracer.scene()),
-        before_(pass - 1),
+        arrivals_(input, pass),
         classes_(static_cast<size_t>(input.data.classCount)),
         out_(*out),
         counts_(*counts) {
@@ -297,16 +285,16 @@ class BouncePass {
   // Of one vertex after the other.
   void add(const BlockRays& rays, size_t v) {
     const int64_t start = nanosecondsNow();
-    sphere_ = &input_.rays[input_.raysOf[rays.first + v]];
-    weights_.setDirections(sphere_->chunks);
-    const size_t words = (sphere_->grid.count() + 63) / 64;
-    blocked_ = std::span(rays.blocked).subspan(word_, words);
+    const size_t words = (input_.rays[input_.raysOf[rays.first + v]].grid.count() + 63) / 64;
+    arrivals_.gather(
+        {rays.first + v, std::span(rays.blocked).subspan(word_, words),
+         std::span(rays.hits).subspan(rays.hitStart[v], rays.hitStart[v + 1] - rays.hitStart[v])});
     word_ += words;
-    gather(std::span(rays.hits).subspan(rays.hitStart[v], rays.hitStart[v + 1] - rays.hitStart[v]));
+    weights_.setDirections(arrivals_.directions());
     const Vertex vertex(input_, rays.first + v);
     for (auto& c : columns_) c.clear();
     for (auto& r : records_) r.clear();
-    if (any_)
+    if (arrivals_.any())
       for (size_t s = rays.sliceStart[v]; s < rays.sliceStart[v + 1]; ++s)
         slice(vertex, rays.slices[s]);
     for (size_t c = 0; c <= classes_; ++c) out_.glossy[c].addRow(columns_[c], records_[c]);
@@ -315,99 +303,21 @@ class BouncePass {
   }
 
  private:
-  void gather(std::span<const RayHit> hits) {
-    firstHit_.resize(sphere_->chunks.chunkCount());
-    incoming_.clear();
-    any_ = false;
-    for (size_t c = 0; c < sphere_->chunks.chunkCount(); ++c) {
-      firstHit_[c] = static_cast<uint32_t>(incoming_.size());
-      for (uint32_t lanes = lanesOf(blocked_, c); lanes != 0; lanes &= lanes - 1) {
-        const size_t ray = c * kLanes + static_cast<size_t>(std::countr_zero(lanes));
-        incoming_.push_back(arriving(hits[incoming_.size()], ray));
-      }
-    }
-  }
-
-  Incoming arriving(const RayHit& hit, size_t ray) {
-    Incoming in;
-    LobeMoment narrow, broad;
-    const uint32_t instance = input_.instanceOf[hit.triangle];
-    const MaterialHandle material = scene_.instances[instance].material;
-    in.narrowClass = classOf(material, input_.data.classCount);
-    const uint32_t triangle = hit.triangle - input_.data.mesh.mesh.firstTriangle()[instance];
-    const Hit place = hit.at(instance, triangle);
-    const auto around = input_.data.mesh.around(place);
-    const Vec3f wo = -sphere_->grid.directions()[ray];
-    const Side side = input_.lookup.sideOf(place, wo);
-    const Reflection own = ownOf(material, around, place, wo);
-    if (luminance(own.glossy) > 0) {
-      std::array<LobeMoment, kMostClasses + 1> byClass{};
-      const PlaceView view = input_.lookup.view(around, own, wo, side, sphere_->back[ray]);
-      const auto& glossy = input_.data.passes[before_].glossy;
-      input_.lookup.glossy(view, before_, {byClass.data(), glossy.size()});
-      for (size_t c = 0; c < glossy.size(); ++c)
-        add(before_ > 0 && c + 1 == glossy.size() ? &broad : &narrow, byClass[c]);
-    }
-    if (luminance(own.diffuse) > 0 && !input_.diffuseBefore.empty())
-      add(&broad, diffuseOf(around, side, own.diffuse));
-    if (narrow.alpha != Rgb{} || broad.alpha != Rgb{}) any_ = true;
-    in.narrow = numbersOf(narrow), in.broad = numbersOf(broad);
-    return in;
-  }
-
-  static void add(LobeMoment* to, const LobeMoment& m) {
-    to->alpha += m.alpha, to->first += m.first;
-  }
-
-  LobeMoment diffuseOf(const relight::SurroundingVertices& around, Side side, Rgb albedo) const {
-    LobeMoment all;
-    for (size_t i = 0; i < 3; ++i) {
-      const size_t at = input_.data.diffuseSides.find(around.vertex[i], side);
-      if (at == DiffuseSides::kNone) continue;
-      const LobeMoment& m = input_.diffuseBefore[at];
-      all.alpha += m.alpha * around.weight[i], all.first += m.first * around.weight[i];
-    }
-    const float energy = luminance(all.alpha);
-    if (energy <= 0) return {};
-    const Rgb alpha = all.alpha * albedo;
-    return {alpha, all.first * (luminance(alpha) / energy)};
-  }
-
-  // Between the vertices: tables by the mean of normals; else of the surface itself.
-  Reflection ownOf(MaterialHandle material, const relight::SurroundingVertices& around,
-                   const Hit& hit, Vec3f wo) const {
-    Reflection own;
-    if (input_.tables.has(material)) {
-      Vec3f n{};
-      for (size_t i = 0; i < 3; ++i)
-        n += input_.data.mesh.vertices[around.vertex[i]].n * around.weight[i];
-      const float size = length(n);
-      if (size > 0 && dot(n, wo) < kGrazing * size)
-        wo = aboveHorizon(wo, surfacePoint(scene_, hit));
-      if (!(size > 0) || !input_.tables.summary(material, n / size, wo, &own)) return {};
-      return own;
-    }
-    const SurfacePoint at = surfacePoint(scene_, hit);
-    wo = aboveHorizon(wo, at);
-    return reflectionOf(makeBsdf(scene_, at, wo, 0), wo);
-  }
-
   void slice(const Vertex& vertex, const SeeingSlice& slice) {
     const Vec3f wo = input_.directions.directions()[slice.column];
     const Bsdf part = glossyPart(vertex.bsdf(wo));
     chunks_.clear();
     for (const uint32_t c : weights_.find(part, wo))
-      if (lanesOf(blocked_, c) != 0) chunks_.push_back(c);
+      if (arrivals_.lanes(c) != 0) chunks_.push_back(c);
     if (chunks_.empty()) return;
     const float* w = weights_.evaluate(part, wo, chunks_);
     std::array<Numbers, kMostClasses + 1> totals{};
     for (size_t j = 0; j < chunks_.size(); ++j, w += kLanes) {
-      const Incoming* in = &incoming_[firstHit_[chunks_[j]]];
-      for (uint32_t lanes = lanesOf(blocked_, chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
+      const Incoming* in = arrivals_.of(chunks_[j]);
+      for (uint32_t lanes = arrivals_.lanes(chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
         const auto l = static_cast<size_t>(std::countr_zero(lanes));
-        const float weight = w[l] * sphere_->solidAngle[chunks_[j] * kLanes + l];
-        addTo(&totals[static_cast<size_t>(in->narrowClass)], weight, in->narrow);
-        addTo(&totals[classes_], weight, in->broad);
+        addTo(&totals[static_cast<size_t>(in->narrowClass)], w[l], in->narrow);
+        addTo(&totals[classes_], w[l], in->broad);
       }
     }
     for (size_t c = 0; c <= classes_; ++c) {
@@ -423,20 +333,19 @@ class BouncePass {
 
   void diffuse(const Vertex& vertex, Vec3f wo, float all) {
     DiffuseLobes lobes{};
-    if (all > 0 && any_) {
+    if (all > 0 && arrivals_.any()) {
       std::array<Numbers, kOctants> octants{};
       const Bsdf part = diffusePart(vertex.bsdf(wo));
       chunks_.clear();
       for (const uint32_t c : weights_.find(part, wo))
-        if (lanesOf(blocked_, c) != 0) chunks_.push_back(c);
+        if (arrivals_.lanes(c) != 0) chunks_.push_back(c);
       const float* w = weights_.evaluate(part, wo, chunks_);
       for (size_t j = 0; j < chunks_.size(); ++j, w += kLanes) {
-        const Incoming* in = &incoming_[firstHit_[chunks_[j]]];
-        for (uint32_t lanes = lanesOf(blocked_, chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
+        const Incoming* in = arrivals_.of(chunks_[j]);
+        for (uint32_t lanes = arrivals_.lanes(chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
           const auto l = static_cast<size_t>(std::countr_zero(lanes));
-          const float weight = w[l] * sphere_->solidAngle[chunks_[j] * kLanes + l];
-          addTo(&octants[octantOf(in->narrow)], weight, in->narrow);
-          addTo(&octants[octantOf(in->broad)], weight, in->broad);
+          addTo(&octants[octantOf(in->narrow)], w[l], in->narrow);
+          addTo(&octants[octantOf(in->broad)], w[l], in->broad);
         }
       }
       for (size_t o = 0; o < kOctants; ++o) {
@@ -451,18 +360,13 @@ class BouncePass {
   }
 
   const GatherInput& input_;
-  const Scene& scene_;
-  const size_t before_, classes_;
+  Arrivals arrivals_;  // at the vertex under way
+  const size_t classes_;
   BlockPass& out_;
   BlockCounts& counts_;
   LobeWeights weights_;
-  const RaySphere* sphere_ = nullptr;  // of the vertex under way
-  size_t word_ = 0;                    // where the next vertex's bits begin
-  size_t side_ = 0;                    // the next with diffuse light
-  std::span<const uint64_t> blocked_;
-  std::vector<uint32_t> firstHit_;  // by chunk: its first among incoming_
-  std::vector<Incoming> incoming_;  // by hit
-  bool any_ = false;                // does any light arrive?
+  size_t word_ = 0;  // where the next vertex's bits begin
+  size_t side_ = 0;  // the next with diffuse light
   std::vector<uint32_t> chunks_;
   std::vector<std::vector<uint32_t>> columns_;  // by class
   std::vector<std::vector<SliceRecord>> records_;

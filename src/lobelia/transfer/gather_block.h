@@ -13,7 +13,7 @@
 
 #include "lobelia/base/context.h"
 #include "lobelia/transfer/precompute.h"
-#include "lobelia/transfer/ray_sphere.h"
+#include "lobelia/transfer/ray_cells.h"
 #include "lobelia/transfer/reflection.h"
 #include "lobelia/transfer/slice_lookup.h"
 #include "lobelia/transfer/vertex_rays.h"
@@ -25,6 +25,8 @@ struct GatherInput {
   const Tracer& tracer;
   std::span<const RaySphere> rays;  // of some levels
   std::span<const uint8_t> raysOf;  // by vertex: which of them
+  // By vertex: the cells in which bounces gather its rays; null: each ray by itself.
+  std::span<const RayCells* const> cellsOf;
   const GeodesicGrid& directions;
   const ReflectionTables& tables;
   const TransferData& data;  // mesh; passes, of which the last is being made
@@ -37,7 +39,8 @@ struct GatherInput {
   bool anyDiffuse = true;  // false: nothing has diffuse lobes, and passes are to have none
 };
 
-// A slice that sees something: its column, and the sum of its weights over all rays.
+// A slice that sees something: its column, and the sum of its weights over all rays, or over the
+// cells of rays where bounces gather in them.
 struct SeeingSlice {
   uint32_t column = 0;
   float weight = 0;

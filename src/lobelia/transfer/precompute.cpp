@@ -69,8 +69,9 @@ class Precomputation {
     data_.classCount = settings_.classCount;
     const SliceLookup lookup(tracer_.scene(), data_, tables_);
     const std::vector<uint8_t> raysOf = raysOfVertices();
-    GatherInput input{tracer_, rays_, raysOf,     directions_, tables_,    data_,
-                      lookup,  faces, instanceOf, {},          anyDiffuse_};
+    const std::vector<const RayCells*> cellsOf = cellsOfVertices(raysOf);
+    GatherInput input{tracer_, rays_,  raysOf, cellsOf,    directions_, tables_,
+                      data_,   lookup, faces,  instanceOf, {},          anyDiffuse_};
     blocks_ = (data_.mesh.vertices.size() + kBlock - 1) / kBlock;
     store_.setSize(blocks_, directions_.count());
     direct(input);
@@ -110,6 +111,20 @@ class Precomputation {
       const float kappa = tables_.sharpest(tracer_.scene().instances[v.instance].material);
       out.push_back(rays_.size() == 1 ? uint8_t{0}
                                       : static_cast<uint8_t>(rayLevelFor(kappa) - kCoarsestRays));
+    }
+    return out;
+  }
+
+  // By vertex, as GatherInput has them. Classes need rays one by one, each of which has its own.
+  std::vector<const RayCells*> cellsOfVertices(std::span<const uint8_t> raysOf) {
+    std::vector<const RayCells*> out(raysOf.size(), nullptr);
+    if (settings_.classCount > 1) return out;
+    for (const RaySphere& sphere : rays_) cells_.emplace_back(sphere, directions_);
+    for (size_t v = 0; v < out.size(); ++v) {
+      const float kappa =
+          tables_.sharpest(tracer_.scene().instances[data_.mesh.vertices[v].instance].material);
+      const RayCells& cells = cells_[raysOf[v]];
+      if (cellsSuffice(cells.rayOf.size(), kappa)) out[v] = &cells;
     }
     return out;
   }
@@ -246,6 +261,7 @@ class Precomputation {
   const ReflectionTables tables_;
   const GeodesicGrid directions_;
   const std::vector<RaySphere> rays_;
+  std::vector<RayCells> cells_;  // of rays_
   BlockStore store_;
   TransferData data_;
   bool anyDiffuse_ = false;
