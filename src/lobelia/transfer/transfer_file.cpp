@@ -100,7 +100,9 @@ TransferData load(const std::string& file, const Scene& scene) {
   data.mesh.vertices = transferVertices(scene, data.mesh.mesh);
   data.mesh.buried = reader.get<uint8_t>("buried");
   if (!data.mesh.buried.empty() && data.mesh.buried.size() != data.mesh.vertices.size())
-    throw InputError({file}, "what it says of its vertices does not fit them; make it again");
+    throw InputError({file}, fmt::format("'buried' has {} rows for {} vertices; make it again with "
+                                         "`lobelia precompute --method vmf`",
+                                         data.mesh.buried.size(), data.mesh.vertices.size()));
   readPasses(reader, file, head, data.mesh.vertices.size(), &data);
   return data;
 }
