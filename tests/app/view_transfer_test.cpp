@@ -67,6 +67,14 @@ TEST_F(ViewTransfer, BouncesAddUp) {
   EXPECT_GT(most, 0);
   EXPECT_EQ(indirect[0], 0) << "the sky, which is direct light";
   EXPECT_GT(direct[0], 0);
+  writeText(file("script.txt"), "frame\nbounce 1\nframe\nbounce 0\nframe\nbounce all\nframe\n");
+  const ProgramResult r =
+      runProgram(command("--bounce 2 --script " + file("script.txt"), "s%d.exr"));
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const Values* const shown[] = {&second, &first, &direct, &all};
+  for (size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(io::readFilm(file("s" + std::to_string(i) + ".exr")).layers.at("").values, *shown[i])
+        << i;
   expectFailure(command("--bounce 3", "x.exr"), 2, "0 to 2 bounces");
   expectFailure(command("--bounce 1 --component all", "x.exr"), 2, "--component");
 }
@@ -91,6 +99,13 @@ TEST_F(ViewTransfer, FramesTurnTheLightAndSayWhatTheyCost) {
   EXPECT_GT(stats["frames_per_second"], 0);
   for (const char* stage : {"prepare", "buffer", "merge", "shade"})
     EXPECT_GT(stats["seconds"][stage], 0) << stage;
+  EXPECT_EQ(stats["gather"]["mode"], "");
+  for (const char* key : {"light_cut", "vertices", "visibility_cut"})
+    EXPECT_FALSE(stats["gather"].contains(key)) << key << " is of cuts";
+  for (const char* key : {"merged_nodes_per_vertex", "evaluations_per_pixel", "mirror_rays"})
+    EXPECT_FALSE(stats["counts"].contains(key)) << key << " is of cuts";
+  for (const char* key : {"cut", "direct"})
+    EXPECT_FALSE(stats["seconds"].contains(key)) << key << " is of cuts";
 }
 
 // Light changes at once; materials stay as they were precomputed, which is said once.
@@ -150,6 +165,9 @@ TEST_F(ViewTransfer, RefusesWhatItCannotDraw) {
   };
   failing("method cuts\nframe\n", "no data of visibility");
   failing("frame\nfalse-colour illuminance\nframe\n", "script.txt:3");
+  failing("bounce some\nframe\n", "a number from 0, or all");
+  failing("bounce 3\nframe\n", "script.txt:1: bounce 3: the data has light of 0 to 2");
+  failing("method path 1\nbounce 1\nframe\n", "add a line before it: method transfer");
   failing("false-colour cost\nframe\nscreenshot x.png\n", "transfer does not count");
   std::string scene = kBlockScene;
   scene.replace(scene.find("0.3\"/></bsdf>"), 3, "0.2");

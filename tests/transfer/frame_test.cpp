@@ -41,9 +41,12 @@ struct Stage {
     renderer = std::make_unique<TransferRenderer>(*tracer, data);
     relight();
   }
-  void relight() {
-    emitters = std::make_unique<EmitterSampler>(scene, bounds(scene));
-    renderer->relight(*emitters, context);
+  // Was the light convolved anew?
+  bool relight() {
+    auto sampler = std::make_unique<EmitterSampler>(scene, bounds(scene));
+    const bool anew = renderer->relight(*sampler, context);
+    emitters = std::move(sampler);
+    return anew;
   }
   static Camera camera() {
     Camera camera;
@@ -197,6 +200,25 @@ TEST(TransferFrame, ShowsTheSkyUnlessItIsHiddenAndNewLightAtOnce) {
   const Film brighter = stage.film({});
   for (size_t i = 0; i < film.pixelCount(); ++i)
     EXPECT_LT(length(brighter.rgb(i) - film.rgb(i) * 2), 1e-5f);
+}
+
+TEST(TransferFrame, ConvolvesLightOnlyWhenItIsAnother) {
+  Stage stage(kShiny);
+  stage.addSky({1, 2, 3});
+  stage.addSun({0, 1, 1}, Rgb(2));
+  stage.start();
+  const Film film = stage.film({});
+  EXPECT_FALSE(stage.relight());
+  Emitter lamp;  // which transfer does not show
+  lamp.type = EmitterType::point;
+  stage.scene.emitters.push_back(lamp);
+  EXPECT_FALSE(stage.relight());
+  EXPECT_EQ(stage.film({}).layers.at("").values, film.layers.at("").values);
+  stage.scene.emitters[0].radiance = Rgb(1, 2, 4);
+  EXPECT_TRUE(stage.relight());
+  stage.scene.emitters[1].direction = normalize(Vec3f{0, -1, -2});
+  EXPECT_TRUE(stage.relight());
+  EXPECT_NE(stage.film({}).layers.at("").values, film.layers.at("").values);
 }
 
 }  // namespace

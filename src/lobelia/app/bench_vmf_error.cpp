@@ -95,10 +95,11 @@ class ErrorStudy {
     views_.light(&renderer);
     const std::string file = fmt::format("figure4-{}-{}{}", name_, kind.directions(),
                                          kind.materials ? "-materials" : "");
-    study_.report.show("figure4", fmt::format("{}, {}", name_, kind.name()),
-                       {{"transfer", picture(file, views_.frame(renderer, 0, 0, 3))},
-                        {"path tracer", picture(fmt::format("figure4-{}-path", name_),
-                                                views_.path(0, VmfViews::kBounces).first)}});
+    study_.report.show(
+        "figure4", fmt::format("{}, {}", name_, kind.name()),
+        {{"transfer", picture(file, views_.frame(renderer, 0, 0, VmfViews::kBounces + 1))},
+         {"path tracer", picture(fmt::format("figure4-{}-path", name_),
+                                 views_.path(0, VmfViews::kBounces).first)}});
   }
 
   const std::string name_;

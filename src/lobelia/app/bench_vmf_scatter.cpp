@@ -42,7 +42,7 @@ class ScatterStudy {
           study_.context);
       const double seconds = 1e-9 * static_cast<double>(nanosecondsNow() - start);
       const auto traced = static_cast<double>(s.count("transfer_rays") - before);
-      perPath = traced / (paths * rays);
+      if (traced > 0) perPath = traced / (paths * rays);
       add(fmt::format("scattered, {} rays for a slice", rays), traced, rays, seconds, data);
     }
     study_.report.show("figure3", name_, pictures_);

@@ -119,8 +119,9 @@ class TableStudy {
     const transfer::RowDisplacement displaced(all);
     const double seconds = secondsSince(start);
     const auto records = static_cast<double>(all.recordCount());
+    const double slots = static_cast<double>(displaced.slots());
     hash().rows.push_back({name_, 1e-6 * records, 100 * density(data, paper.kind),
-                           100 * paper.density, static_cast<double>(displaced.slots()) / records,
+                           100 * paper.density, records > 0 ? slots / records : kNone,
                            1e-6 * static_cast<double>(displaced.byteCount()),
                            1e-6 * static_cast<double>(all.byteCount()), seconds});
   }

@@ -28,16 +28,19 @@ void warnOfMissing(const Scene& scene, Context& context) {
         fmt::format("{} surfaces transmit light: transfer has only their reflections", clear));
 }
 
-void requireBounce(int bounce, int passes) {
-  if (bounce < 0 || bounce < passes) return;
+std::string whyNoBounce(int bounce, int passes) {
+  if (bounce < 0 || bounce < passes) return {};
   if (passes == 0)
-    throw UsageError(
-        "--bounce is of data of `lobelia precompute --method vmf`, of which there is none; "
-        "--component tells light of cuts apart");
-  throw UsageError(
-      fmt::format("--bounce {}: the data has light of 0 to {} bounces; more by `lobelia precompute "
-                  "--bounces {}`",
-                  bounce, passes - 1, bounce));
+    return "this is of data of `lobelia precompute --method vmf`, of which there is none; "
+           "--component tells light of cuts apart";
+  return fmt::format(
+      "the data has light of 0 to {} bounces; more by `lobelia precompute --bounces {}`",
+      passes - 1, bounce);
+}
+
+void requireBounce(int bounce, int passes) {
+  if (const std::string why = whyNoBounce(bounce, passes); !why.empty())
+    throw UsageError(fmt::format("--bounce {}: {}", bounce, why));
 }
 
 std::pair<int, int> passesOf(const TransferView& view) {

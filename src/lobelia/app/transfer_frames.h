@@ -18,6 +18,8 @@ struct TransferView {
 
 // What transfer will not show of the scene: of its light, and of surfaces that transmit.
 void warnOfMissing(const Scene& scene, Context& context);
+// Why data of so many passes (0: there is none) has not this bounce (-1 is all), or "".
+std::string whyNoBounce(int bounce, int passes);
 // Throws UsageError for a bounce that data of so many passes (0: there is none) has not; -1 is all.
 void requireBounce(int bounce, int passes);
 // [first, end) of the passes that a view shows.

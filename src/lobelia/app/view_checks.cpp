@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "lobelia/app/frame_setup.h"
+
 namespace lobelia::app {
 namespace {
 
@@ -40,6 +42,20 @@ void warnOfBlack(const ViewData& data, Context& context) {
 }
 
 }  // namespace
+
+void requireOwnFiles(const ViewOptions& options, const std::vector<ScriptStep>& script) {
+  const SceneOptions& scene = options.render.scene;
+  for (const ScriptStep& step : script) {
+    if (step.kind != ScriptStep::Kind::save && step.kind != ScriptStep::Kind::screenshot) continue;
+    std::vector<std::string> read = options.data;
+    read.insert(read.end(), {options.script, scene.scene, scene.design, scene.environment});
+    try {
+      requireNoInput({step.file}, read);
+    } catch (const UsageError& e) {
+      throw InputError(step.where, e.what());
+    }
+  }
+}
 
 void requireTransferFrames(const ViewOptions& options, const ViewData& data,
                            const std::vector<ScriptStep>& script) {

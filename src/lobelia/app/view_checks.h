@@ -1,4 +1,5 @@
-// What options of `lobelia view` ask for that the data do not have.
+// What options and scripts of `lobelia view --headless` ask for that cannot be, or that the data do
+// not have.
 #pragma once
 
 #include <vector>
@@ -9,6 +10,8 @@
 
 namespace lobelia::app {
 
+// Throws InputError, at its step, where the script would write over what the run reads.
+void requireOwnFiles(const ViewOptions& options, const std::vector<ScriptStep>& script);
 // Throws UsageError for --bounce where no frame is by transfer.
 void requireTransferFrames(const ViewOptions& options, const ViewData& data,
                            const std::vector<ScriptStep>& script);

@@ -30,21 +30,6 @@ Design turnedDesign(const Scene& scene, double degrees) {
   return design;
 }
 
-// Where the script would write over what the run reads.
-void requireOwnFiles(const std::vector<ScriptStep>& script, const ViewOptions& options) {
-  const SceneOptions& scene = options.render.scene;
-  for (const ScriptStep& step : script) {
-    if (step.kind != Kind::save && step.kind != Kind::screenshot) continue;
-    std::vector<std::string> read = options.data;
-    read.insert(read.end(), {options.script, scene.scene, scene.design, scene.environment});
-    try {
-      requireNoInput({step.file}, read);
-    } catch (const UsageError& e) {
-      throw InputError(step.where, e.what());
-    }
-  }
-}
-
 [[noreturn]] void throwUnknown(const char* what, const std::string& name,
                                const std::vector<std::string>& known, const Location& where) {
   throw InputError(where, fmt::format("{} '{}' is not known{}; there are {}", what, name,
@@ -63,7 +48,8 @@ ViewFrames::ViewFrames(const ViewOptions& options, const std::string& commandLin
       history_(turnedDesign(stage_.scene(), options.rotate)),
       first_(history_.share()),
       maker_(stage_, first_, options.render.seed) {
-  requireOwnFiles(script_, options);
+  requireOwnFiles(options, script_);
+  maker_.setEvenTruth();
   const ViewData& data = stage_.data();
   view_.method = data.method;
   requireBounce(options.bounce, stage_.transferPasses());
@@ -138,6 +124,8 @@ void ViewFrames::play(const ScriptStep& step) {
       return context_.info("wrote " + step.file);
     case Kind::method:
       return chooseMethod(step);
+    case Kind::bounce:
+      return chooseBounce(step);
     case Kind::truth:
       view_.truth = true;
       maker_.want(history_.share(), view_);
@@ -202,6 +190,14 @@ void ViewFrames::chooseMethod(const ScriptStep& step) {
   view_.method = *method;
   passes_ = step.count;
   view_.spp = PictureMaker::kMostTruth;  // the passes say when a picture is done
+}
+
+void ViewFrames::chooseBounce(const ScriptStep& step) {
+  std::string why = whyNoBounce(step.count, stage_.transferPasses());
+  if (step.count >= 0 && why.empty() && view_.method != ViewMethod::transfer)
+    why = "this is of frames by transfer; add a line before it: method transfer";
+  if (!why.empty()) throw InputError(step.where, fmt::format("bounce {}: {}", step.count, why));
+  view_.bounce = step.count;
 }
 
 void ViewFrames::chooseColours(const ScriptStep& step) {

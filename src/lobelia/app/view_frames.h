@@ -30,6 +30,7 @@ class ViewFrames {
   void load(const ScriptStep& step);
   void edit(const ScriptStep& step);
   void chooseMethod(const ScriptStep& step);
+  void chooseBounce(const ScriptStep& step);
   void chooseColours(const ScriptStep& step);
   void screenshot(const ScriptStep& step) const;
   void splitAt(const ScriptStep& step);

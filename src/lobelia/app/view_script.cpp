@@ -45,7 +45,8 @@ const std::map<std::string, Command>& commands() {
       {"redo", {Kind::redo, 0, 0, "redo"}},
       {"save", {Kind::save, 1, 1, "save FILE", 0, false}},
       {"method", {Kind::method, 1, 2, "method NAME [PASSES]"}},
-      {"truth", {Kind::truth, 1, 1, "truth PASSES"}},
+      {"bounce", {Kind::bounce, 1, 1, "bounce N, or bounce all"}},
+      {"truth", {Kind::truth, 1, 1, "truth SAMPLES"}},
       {"false-colour", {Kind::falseColour, 1, 3, "false-colour KIND [LEAST MOST]"}},
       {"split", {Kind::split, 1, 1, "split SHARE, or split off"}},
       {"screenshot", {Kind::screenshot, 1, 1, "screenshot FILE", 0, false}}};
@@ -69,6 +70,15 @@ Transform view(const std::vector<std::string>& values, const Location& where) {
                      "the camera has no direction: origin and target must differ, and up "
                      "must not point along it");
   return Transform(*matrix);
+}
+
+// -1: all.
+int bounceOf(const std::string& text, const Location& where) {
+  if (text == "all") return -1;
+  const std::optional<int> bounce = parsed<int>(text);
+  if (!bounce || *bounce < 0)
+    throw InputError(where, fmt::format("bounce '{}': a number from 0, or all", text));
+  return *bounce;
 }
 
 int countOf(const std::string& text, const char* what, const Location& where) {
@@ -109,6 +119,9 @@ ScriptStep stepOf(const Command& command, const std::vector<std::string>& values
     case Kind::truth:
       if (!values.empty())
         step.count = countOf(values[0], step.kind == Kind::frame ? "frame" : "truth", where);
+      break;
+    case Kind::bounce:
+      step.count = bounceOf(values[0], where);
       break;
     case Kind::method:
       if (values.size() > 1) step.count = countOf(values[1], "passes", where);

@@ -16,7 +16,8 @@
 //   undo, redo
 //   save FILE                            the design
 //   method NAME [PASSES]                 cuts, transfer, or how many passes a frame has
-//   truth N                              so many passes by path tracing, for errors and splits
+//   bounce N                             of transfer, light of so many reflections alone; all
+//   truth N                              so many samples by path tracing, for errors and splits
 //   false-colour KIND [LEAST MOST]       of screenshots: luminance...; off
 //   split SHARE                          of screenshots: the truth right of it; off
 //   screenshot FILE                      the last frame
@@ -52,6 +53,7 @@ struct ScriptStep {
     redo,
     save,
     method,
+    bounce,
     truth,
     falseColour,
     split,
@@ -62,7 +64,7 @@ struct ScriptStep {
   std::string file;                // of those with one
   double degrees = 0;              // rotate, turn
   Transform toWorld;               // camera
-  int count = 1;                   // frame, truth; passes of method
+  int count = 1;                   // frame, truth; passes of method; bounce (-1: all)
   std::vector<std::string> words;  // of the others, as they stand but for the command and the file
 };
 

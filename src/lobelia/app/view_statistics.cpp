@@ -23,23 +23,34 @@ double frameSeconds(const Statistics& s) {
   return sum;
 }
 
-Json countsJson(const Statistics& s) {
+Json countsJson(const Statistics& s, bool cuts) {
   const auto count = [&](const char* name) { return static_cast<double>(s.count(name)); };
   const double frames = count("frames"), pixels = count("object_pixels");
-  return {{"frames", s.count("frames")},
-          {"pixels", s.count("pixels")},
-          {"object_pixels", s.count("object_pixels")},
-          {"vertices_per_frame", ratio(count("vertices_merged"), frames)},
-          {"merged_nodes_per_vertex", ratio(count("merged_nodes"), count("vertices_merged"))},
-          {"evaluations_per_pixel", ratio(count("evaluations"), pixels)},
-          {"fine_nodes_per_pixel",
-           ratio(count("fine_chunks") * static_cast<double>(relight::kChunk), pixels)},
-          {"light_lookups_per_pixel", ratio(count("light_lookups"), pixels)},
-          {"light_rays_per_frame", ratio(count("light_rays"), frames)},
-          {"shadow_rays", s.count("shadow_rays") + s.count("light_rays")},
-          {"mirror_rays", s.count("mirror_rays")},
-          {"cut_nodes_per_pixel", ratio(count("cut_nodes"), pixels)},
-          {"nonfinite", s.count("nonfinite")}};
+  Json json{{"frames", s.count("frames")},
+            {"pixels", s.count("pixels")},
+            {"object_pixels", s.count("object_pixels")},
+            {"vertices_per_frame", ratio(count("vertices_merged"), frames)},
+            {"light_lookups_per_pixel", ratio(count("light_lookups"), pixels)},
+            {"shadow_rays", s.count("shadow_rays") + s.count("light_rays")},
+            {"cut_nodes_per_pixel", ratio(count("cut_nodes"), pixels)},
+            {"nonfinite", s.count("nonfinite")}};
+  if (cuts)
+    json.update(
+        {{"merged_nodes_per_vertex", ratio(count("merged_nodes"), count("vertices_merged"))},
+         {"evaluations_per_pixel", ratio(count("evaluations"), pixels)},
+         {"fine_nodes_per_pixel",
+          ratio(count("fine_chunks") * static_cast<double>(relight::kChunk), pixels)},
+         {"light_rays_per_frame", ratio(count("light_rays"), frames)},
+         {"mirror_rays", s.count("mirror_rays")}});
+  return json;
+}
+
+// Of what the cuts are, in the data and in frames.
+Json cutsJson(const ViewOptions& options, const relight::VisibilityData& data) {
+  const auto vertices = static_cast<double>(data.cuts.count());
+  return {{"light_cut", options.lightCut},
+          {"vertices", data.cuts.count()},
+          {"visibility_cut", ratio(static_cast<double>(data.cuts.nodes().size()), vertices)}};
 }
 
 Json transferJson(const transfer::TransferData& data) {
@@ -64,8 +75,6 @@ void writeViewStatistics(const ViewOptions& options, const Scene& scene, const V
   const Statistics& s = context.statistics;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const double vertices = data != nullptr ? static_cast<double>(data->cuts.count()) : 0;
-  const double nodes = data != nullptr ? static_cast<double>(data->cuts.nodes().size()) : 0;
   Json json;
   json["version"] = kVersion;
   json["scene"] = {{"triangles", triangleCount(scene)},
@@ -73,25 +82,26 @@ void writeViewStatistics(const ViewOptions& options, const Scene& scene, const V
                    {"emitters", scene.emitters.size()}};
   json["lights"] = {{"model", both.environment && both.surfaces ? "environment and surfaces"
                               : both.surfaces                   ? "surfaces"
-                                                                : "environment"},
-                    {"samples", data != nullptr ? data->samples.count() : 0}};
+                                                                : "environment"}};
+  if (data != nullptr) json["lights"]["samples"] = data->samples.count();
   for (const char* kind : {"omni", "directional", "diffuse", "glossy", "spherical", "vsgl"})
     json["lights"][kind] = 0;
   json["gather"] = {{"strategy", viewMethodNames()[static_cast<size_t>(all.method)]},
-                    {"mode", options.plainLobes ? "plain" : "refined"},
+                    {"mode", data == nullptr      ? ""
+                             : options.plainLobes ? "plain"
+                                                  : "refined"},
                     {"bound", ""},
                     {"threshold", nullptr},
-                    {"error", nullptr},
-                    {"light_cut", options.lightCut},
-                    {"vertices", static_cast<uint64_t>(vertices)},
-                    {"visibility_cut", ratio(nodes, vertices)}};
+                    {"error", nullptr}};
+  if (data != nullptr) json["gather"].update(cutsJson(options, *data));
   if (all.transfer) json["transfer"] = transferJson(*all.transfer);
   json["receivers"] = {{"diffuse", 0}, {"glossy", 0}};
-  for (const char* stage :
-       {"load", "accel", "data", "prepare", "light", "buffer", "cut", "merge", "direct", "shade",
-        "total", "receivers", "lights", "trees", "traverse", "visibility"})
+  if (data != nullptr)
+    for (const char* stage : {"cut", "direct"}) json["seconds"][stage] = s.seconds(stage);
+  for (const char* stage : {"load", "accel", "data", "prepare", "light", "buffer", "merge", "shade",
+                            "total", "receivers", "lights", "trees", "traverse", "visibility"})
     json["seconds"][stage] = s.seconds(stage);
-  json["counts"] = countsJson(s);
+  json["counts"] = countsJson(s, data != nullptr);
   for (const char* count :
        {"rays_per_pixel", "node_pairs_visited", "node_pairs_shaded", "lights_per_light_node",
         "pixels_per_pixel_node", "specular_connections"})

@@ -1,7 +1,9 @@
 #include "lobelia/transfer/frame.h"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "lobelia/relight/frame.h"
 #include "lobelia/relight/tile_counts.h"
@@ -21,6 +23,14 @@ size_t passNumber(int pass, const TransferData& data) {
   return std::min(static_cast<size_t>(std::max(pass, 0)), data.passes.size());
 }
 
+bool sameLight(const relight::DistantLight& a, const relight::DistantLight& b) {
+  return a.everywhere == b.everywhere &&
+         std::equal(a.powers.begin(), a.powers.end(), b.powers.begin(), b.powers.end(),
+                    [](const relight::DirectedPower& x, const relight::DirectedPower& y) {
+                      return x.direction == y.direction && x.power == y.power;
+                    });
+}
+
 }  // namespace
 
 struct TransferRenderer::Impl {
@@ -36,6 +46,7 @@ struct TransferRenderer::Impl {
   SliceLookup lookup;
   const EmitterSampler* emitters = nullptr;
   std::vector<DiffuseLobes> unoccluded;
+  relight::DistantLight madeOf;  // `light`
   std::optional<PrefilteredLight> light;
   std::optional<Irradiance> irradiance;
   relight::TilePool<FrameTile> tiles;
@@ -45,11 +56,15 @@ TransferRenderer::TransferRenderer(const Tracer& tracer, const TransferData& dat
     : impl_(std::make_unique<Impl>(tracer, data)) {}
 TransferRenderer::~TransferRenderer() = default;
 
-void TransferRenderer::relight(const EmitterSampler& emitters, Context& context) {
+bool TransferRenderer::relight(const EmitterSampler& emitters, Context& context) {
   const StageTimer timer(context, "light");
   impl_->emitters = &emitters;
-  impl_->light.emplace(relight::distantLight(impl_->tracer.scene()));
+  relight::DistantLight light = relight::distantLight(impl_->tracer.scene());
+  if (impl_->light && sameLight(light, impl_->madeOf)) return false;
+  impl_->light.emplace(light);
   impl_->irradiance.emplace(*impl_->light);
+  impl_->madeOf = std::move(light);
+  return true;
 }
 
 void TransferRenderer::render(const TransferFrameSettings& settings, const Camera& camera,

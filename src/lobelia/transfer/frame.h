@@ -26,8 +26,9 @@ class TransferRenderer {
   TransferRenderer(const Tracer& tracer, const TransferData& data);
   ~TransferRenderer();
   // Before the first frame, and when the scene's emitters have changed, of which `emitters` is
-  // made. Seconds: "light".
-  void relight(const EmitterSampler& emitters, Context& context);
+  // made. Convolves the light from infinity, which takes a second or so, where it is another than
+  // before, and says whether it was. Seconds: "light".
+  bool relight(const EmitterSampler& emitters, Context& context);
   // Fills the film's picture (layer ""). Same pixels for any number of threads. Seconds: "buffer",
   // "merge" (slices at vertices), "shade", shared out as threads spent theirs. Counts: "frames",
   // "pixels", "object_pixels", "vertices_merged", "light_lookups", "nonfinite". Throws Cancelled.

@@ -195,7 +195,7 @@ std::shared_ptr<Picture> PictureMaker::look(Context& context) {
 
 std::shared_ptr<Picture> PictureMaker::pass(ViewMethod method, PassMean& mean, Context& context) {
   const bool truth = &mean == &truth_;
-  const int samples = samplesOf(mean, truth ? kMostTruth : view_.spp);
+  const int samples = truth && evenTruth_ ? 1 : samplesOf(mean, truth ? kMostTruth : view_.spp);
   mean.add(stage_.renderPass(viewCamera(view_), passOptions(view_, method, samples), context),
            samples);
   auto picture = std::make_shared<Picture>();

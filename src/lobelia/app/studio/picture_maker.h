@@ -26,6 +26,10 @@ class PictureMaker {
   PictureMaker(Stage& stage, std::shared_ptr<const Design> first, uint64_t seed)
       : stage_(stage), seed_(seed), accepted_(std::move(first)) {}
 
+  // From now on passes of the truth have one sample per pixel each, as many as there are passes:
+  // for who does not watch it grow.
+  void setEvenTruth() { evenTruth_ = true; }
+
   // What is wanted from now on; drops what no longer belongs to it.
   void want(std::shared_ptr<const Design> design, const ViewState& view);
 
@@ -66,6 +70,7 @@ class PictureMaker {
   bool looked_ = false;   // the look is done, if there is to be one
   bool started_ = false;  // frame or look is done
   bool givenUp_ = false, truthGivenUp_ = false;
+  bool evenTruth_ = false;
   double frameSeconds_ =
       0;  // that the last frame in one go took, or had taken when it was cancelled
   double pictureSeconds_ = 0, truthSeconds_ = 0;
