@@ -110,8 +110,7 @@ TEST(PrecomputeTransfer, IsWhatRaysFollowedOneByOneBring) {
       ++compared;
       const Traced reference = traced(tracer, vertex, wo, 1500);
       for (size_t j = 0; j < 3; ++j) {
-        const LobeMoment mine =
-            reflected(lookup, tables, data, stage.scene, v, wo, j);
+        const LobeMoment mine = reflected(lookup, tables, data, stage.scene, v, wo, j);
         sum[j] += double{luminance(mine.alpha)}, truth[j] += double{luminance(reference.alpha[j])};
         wrong[j] += double{length(mine.first - reference.first[j])};
         EXPECT_NEAR(luminance(mine.alpha), luminance(reference.alpha[j]), 0.06f)
@@ -130,8 +129,7 @@ TEST(PrecomputeTransfer, IsWhatRaysFollowedOneByOneBring) {
 TEST(PrecomputeTransfer, StoresNothingOfAConvexBody) {
   Scene scene;
   place(scene, test::sphereMesh(24, 12, true));
-  scene.instances[0].material =
-      test::addMaterial(scene, phong(Rgb(0.5f), Rgb(0.5f), 64));
+  scene.instances[0].material = test::addMaterial(scene, phong(Rgb(0.5f), Rgb(0.5f), 64));
   Context context;
   const Tracer tracer(scene, context);
   const TransferData data = precomputeTransfer(tracer, plain(), context);
@@ -209,7 +207,8 @@ TEST(PrecomputeTransfer, IsTheSameForAnyNumberOfThreads) {
   for (size_t j = 0; j < data[0].passes.size(); ++j) {
     EXPECT_EQ(data[0].passes[j].diffuse, data[1].passes[j].diffuse);
     for (size_t c = 0; c < data[0].passes[j].glossy.size(); ++c) {
-      const auto a = data[0].passes[j].glossy[c].records(), b = data[1].passes[j].glossy[c].records();
+      const auto a = data[0].passes[j].glossy[c].records(),
+                 b = data[1].passes[j].glossy[c].records();
       EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
       EXPECT_GT(a.size(), j == 0 ? 100u : 0u);
     }

@@ -55,7 +55,7 @@ TEST_F(WorkFolderTest, GivesBackWhatWasPut) {
   }
   EXPECT_EQ(messages_.said("going on"), 0u);
   const WorkFolder again(path_, 5, context_);
-  EXPECT_EQ(messages_.said("2 blocks are done"), 1u);
+  EXPECT_EQ(messages_.said("2 blocks are there"), 1u);
   EXPECT_EQ(valueOf(again, "one"), 1.5f);
   EXPECT_EQ(valueOf(again, "two"), 2.5f);
   EXPECT_FALSE(again.find("three"));

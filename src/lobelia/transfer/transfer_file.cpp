@@ -55,7 +55,7 @@ void save(const TransferData& data, const Scene& scene, const std::string& file)
   writer.add("head", std::span(&head, 1));
   relight::addMesh(data.mesh.mesh, &writer);
   for (size_t j = 0; j < data.passes.size(); ++j)
-    addPass(data.passes[j], fmt::format("p{}", j), &writer);
+    addPass(data.passes[j].glossy, data.passes[j].diffuse, fmt::format("p{}", j), &writer);
   if (reflection) addRows(data.reflection, "own", &writer);
   writer.save(file);
 }
