@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
@@ -99,6 +100,37 @@ TEST_F(StoreTest, SameDataSameBytes) {
   writer.add<double>("constant", std::vector<double>(100000, 1.5));
   writer.save(file_);
   EXPECT_EQ(readFile(file_), good_);
+}
+
+// Three megabytes and a bit, by pieces of one; none at all; and what is added at once, in between.
+TEST_F(StoreTest, ChunksThatComeLaterAreReadAlike) {
+  const auto numberAt = [](uint64_t i) { return static_cast<uint32_t>(i * i % 70001); };
+  constexpr uint64_t kCount = 800001;
+  uint64_t asked = 0, most = 0;
+  Writer writer("lights", 3, 7);
+  writer.add<Item>("items", items_);
+  writer.addLater<uint32_t>("numbers", kCount, [&](uint64_t first, std::span<uint32_t> out) {
+    asked += out.size(), most = std::max<uint64_t>(most, out.size());
+    for (uint32_t& v : out) v = numberAt(first++);
+  });
+  writer.addLater<float>("empty", 0, [](uint64_t, std::span<float>) { FAIL(); });
+  writer.add<Item>("again", items_);
+  writer.save(file_);
+  EXPECT_EQ(asked, 2 * kCount);
+  EXPECT_LE(most, kCount / 3);
+  const Reader reader(file_, "lights", 3);
+  const auto numbers = reader.get<uint32_t>("numbers");
+  ASSERT_EQ(numbers.size(), kCount);
+  for (uint64_t i = 0; i < kCount; ++i) ASSERT_EQ(numbers[i], numberAt(i)) << i;
+  EXPECT_TRUE(reader.get<float>("empty").empty());
+  for (const char* chunk : {"items", "again"}) {
+    const auto items = reader.get<Item>(chunk);
+    ASSERT_EQ(items.size(), items_.size());
+    EXPECT_EQ(std::memcmp(items.data(), items_.data(), items.size() * sizeof(Item)), 0) << chunk;
+  }
+  EXPECT_EQ(sceneHashOf(file_), 7u);
+  write(std::span(good_).first(kHeaderSize - 1));
+  EXPECT_THROW((void)sceneHashOf(file_), InputError);
 }
 
 TEST_F(StoreTest, WrongKindVersionChunkOrSizeIsExplained) {

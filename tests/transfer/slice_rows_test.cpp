@@ -10,9 +10,7 @@ namespace lobelia::transfer {
 namespace {
 
 std::vector<uint64_t> copy(std::span<const uint64_t> bits) { return {bits.begin(), bits.end()}; }
-std::vector<SliceRecord> copy(std::span<const SliceRecord> records) {
-  return {records.begin(), records.end()};
-}
+SliceRecords copy(const SliceRecords& records) { return records; }
 
 TEST(SliceRows, FindWhatIsStoredAndNothingElse) {
   for (const size_t columns : {1u, 63u, 64u, 65u, 642u, 2562u}) {
@@ -68,15 +66,35 @@ TEST(SliceRows, AppendInOrder) {
   EXPECT_THROW(joined.append(SliceRows(163)), std::invalid_argument);
 }
 
+// Nothing that is there moves, so that it is never there twice.
+TEST(SliceRows, GrowWithoutBeingMoved) {
+  const std::vector<SliceRecord> full(162);
+  std::vector<uint32_t> columns;
+  for (uint32_t c = 0; c < 162; ++c) columns.push_back(c);
+  SliceRows block(162), all(162);
+  for (int r = 0; r < 256; ++r) block.addRow(columns, full);
+  all.reserveRows(8 * block.rowCount());
+  const auto* const bits = all.bits().data();
+  std::vector<const SliceRecord*> places;
+  for (int b = 0; b < 8; ++b) {
+    all.append(block);
+    places.push_back(all.find(static_cast<size_t>(b) * 256, 0));
+  }
+  EXPECT_EQ(all.bits().data(), bits);
+  // But for the first of the pieces, which grows.
+  for (size_t b = 2; b < 8; ++b) EXPECT_EQ(all.find(b * 256, 0), places[b]) << b;
+}
+
 TEST(SliceRows, RefuseBitsThatDoNotFit) {
-  const std::vector<SliceRecord> two(2);
+  const auto empty = [](size_t count) { return SliceRecords(std::vector<SliceRecord>(count)); };
+  const SliceRecords two = empty(2);
   EXPECT_NO_THROW(SliceRows(65, {1, 1}, two));
   EXPECT_THROW(SliceRows(65, {1, 1, 0}, two), std::invalid_argument) << "half a row";
   EXPECT_THROW(SliceRows(65, {1, 2}, two), std::invalid_argument) << "column 65";
   EXPECT_THROW(SliceRows(65, {1, 0}, two), std::invalid_argument) << "a record too many";
   EXPECT_THROW(SliceRows(65, {3, 1}, two), std::invalid_argument) << "a record too few";
-  EXPECT_THROW(SliceRows(0, {1}, {SliceRecord{}}), std::invalid_argument) << "no columns";
-  EXPECT_NO_THROW(SliceRows(64, {~uint64_t{0}}, std::vector<SliceRecord>(64)));
+  EXPECT_THROW(SliceRows(0, {1}, empty(1)), std::invalid_argument) << "no columns";
+  EXPECT_NO_THROW(SliceRows(64, {~uint64_t{0}}, empty(64)));
 }
 
 TEST(SliceRows, TakeLittleBesidesTheirRecords) {

@@ -55,7 +55,7 @@ TEST_F(WorkFolderTest, GivesBackWhatWasPut) {
   }
   EXPECT_EQ(messages_.said("going on"), 0u);
   const WorkFolder again(path_, 5, context_);
-  EXPECT_EQ(messages_.said("2 blocks are done"), 1u);
+  EXPECT_EQ(messages_.said("2 blocks are there"), 1u);
   EXPECT_EQ(valueOf(again, "one"), 1.5f);
   EXPECT_EQ(valueOf(again, "two"), 2.5f);
   EXPECT_FALSE(again.find("three"));
@@ -123,7 +123,7 @@ TEST_F(WorkFolderTest, FoldersAboveGoWithItWhereItMadeThem) {
   WorkFolder(path_, 5, context_).remove();  // by a later run
   EXPECT_FALSE(fs::exists(temporary_ / "a"));
   EXPECT_TRUE(fs::exists(temporary_ / ""));
-  EXPECT_EQ(messages_.said("1 blocks are done"), 1u) << "the note of folders is none of them";
+  EXPECT_EQ(messages_.said("1 blocks are there"), 1u) << "the note of folders is none of them";
 
   WorkFolder deep(temporary_ / "b/c/d/", 5, context_);
   fs::create_directories(temporary_ / "b/other");

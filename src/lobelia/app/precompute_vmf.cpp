@@ -10,6 +10,7 @@
 #include "lobelia/app/transfer_frames.h"
 #include "lobelia/trace/tracer.h"
 #include "lobelia/transfer/adaptive_mesh.h"
+#include "lobelia/transfer/memory_budget.h"
 #include "lobelia/transfer/scatter.h"
 
 namespace lobelia::app {
@@ -76,7 +77,7 @@ Json statisticsJson(const PrecomputeOptions& options, const TransferSettings& se
        {"mask_tolerance", std::stod(fmt::format("{}", settings.maskTolerance))},
        {"max_vertices", settings.mostVertices},
        {"subdivide", settings.subdivision},
-       {"memory", scatters ? 0 : transfer::budgetOf(settings)},
+       {"memory", scatters ? 0 : transfer::MemoryBudget(settings.memoryBytes).bytes()},
        {"slice_rays", scatters ? options.sliceRays : 0}});
   json["transfer"] = transferJson(options, data);
   for (const char* stage : {"masks", "trace", "direct", "bounce", "scatter"})

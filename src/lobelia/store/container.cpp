@@ -1,25 +1,11 @@
-// Layout of our data files, little-endian, unaligned:
-//
-//   header    8 bytes   magic "LOBELIA" 0
-//             u32       version of this layout
-//             16 bytes  kind, padded with zeros
-//             u32       version of the kind
-//             u64       hash of the scene that the data belong to
-//             u64       bytes of all chunks together
-//   chunks    u32 name length, u32 item size, u64 bytes unpacked, u64 bytes packed, name, data
-//             (one zstd frame)
-//   checksum  u64       XXH3 of all the bytes before it
-//
-// A reader checks the header, then the length, then the checksum, and only then looks at the
-// chunks; so that sizes in them are wrong only in files made to be wrong. Those are refused as
-// well: no size is believed before there are bytes for it.
+// Reading; the layout is that of container.h.
+#include "lobelia/store/container.h"
+
 #include <xxhash.h>
 #include <zstd.h>
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
-#include <limits>
 #include <memory>
 
 #include "lobelia/base/error.h"
@@ -29,23 +15,8 @@
 namespace lobelia::store {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "our files are little-endian");
-
-constexpr char kMagic[8] = {'L', 'O', 'B', 'E', 'L', 'I', 'A', '\0'};
-constexpr uint32_t kLayoutVersion = 1;
-constexpr size_t kKindSize = 16;
-constexpr size_t kHeaderSize = 8 + 4 + kKindSize + 4 + 8 + 8;
-constexpr size_t kChecksumSize = 8;
-constexpr int kCompressionLevel = 1;  // floats gain little from higher ones
-constexpr size_t kMaxNameLength = 255;
 // A zstd block holds at most 128 KiB and takes at least 4 bytes.
 constexpr uint64_t kMaxPackingRatio = 1 << 15;
-
-template <class T>
-void put(std::vector<std::byte>& out, const T& value) {
-  const auto* begin = reinterpret_cast<const std::byte*>(&value);
-  out.insert(out.end(), begin, begin + sizeof(T));
-}
 
 // Reads values one after the other; the caller has made sure that they are there.
 class Cursor {
@@ -159,60 +130,15 @@ std::vector<std::byte> unpack(const std::string& file, const std::string& name,
 
 }  // namespace
 
-Writer::Writer(std::string_view kind, uint32_t version, uint64_t sceneHash)
-    : kind_(kind), version_(version), sceneHash_(sceneHash) {
-  assert(kind.size() <= kKindSize);
-}
-
-void Writer::addBytes(std::string_view chunk, std::span<const std::byte> bytes, size_t itemSize) {
-  assert(chunk.size() <= kMaxNameLength && itemSize <= std::numeric_limits<uint32_t>::max());
-  put(data_, static_cast<uint32_t>(chunk.size()));
-  put(data_, static_cast<uint32_t>(itemSize));
-  put(data_, uint64_t{bytes.size()});
-  const size_t packedAt = data_.size();
-  put(data_, uint64_t{0});
-  const auto name = std::as_bytes(std::span(chunk));
-  data_.insert(data_.end(), name.begin(), name.end());
-  const size_t begin = data_.size();
-  data_.resize(begin + ZSTD_compressBound(bytes.size()));
-  const size_t packed = ZSTD_compress(data_.data() + begin, data_.size() - begin, bytes.data(),
-                                      bytes.size(), kCompressionLevel);
-  if (ZSTD_isError(packed)) {
-    throw RuntimeError("cannot compress chunk '" + std::string(chunk) +
-                       "': " + ZSTD_getErrorName(packed));
-  }
-  data_.resize(begin + packed);
-  const uint64_t stored = packed;
-  std::memcpy(data_.data() + packedAt, &stored, sizeof(stored));
-}
-
-void Writer::save(const std::string& file) const {
-  std::vector<std::byte> header;
-  for (char c : kMagic) put(header, c);
-  put(header, kLayoutVersion);
-  for (size_t i = 0; i < kKindSize; ++i) put(header, i < kind_.size() ? kind_[i] : '\0');
-  put(header, version_);
-  put(header, sceneHash_);
-  put(header, uint64_t{data_.size()});
-
-  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),
-                                                                              XXH3_freeState);
-  if (!state) throw RuntimeError("cannot write " + file + ": out of memory");
-  XXH3_64bits_reset(state.get());
-  XXH3_64bits_update(state.get(), header.data(), header.size());
-  XXH3_64bits_update(state.get(), data_.data(), data_.size());
-  std::vector<std::byte> checksum;
-  put(checksum, uint64_t{XXH3_64bits_digest(state.get())});
-
-  const std::span<const std::byte> parts[] = {header, data_, checksum};
-  writeFileAtomically(file, parts);
-}
-
 std::string kindOf(const std::string& file) {
   const std::vector<std::byte> start = readFileStart(file, kHeaderSize);
   if (start.size() < kHeaderSize || std::memcmp(start.data(), kMagic, sizeof(kMagic)) != 0)
     return "";
   return readHeader(file, start).kind;
+}
+
+uint64_t sceneHashOf(const std::string& file) {
+  return readHeader(file, readFileStart(file, kHeaderSize)).sceneHash;
 }
 
 Reader::Reader(const std::string& file, std::string_view kind, uint32_t version) : file_(file) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,7 +15,8 @@
 namespace lobelia::store {
 
 // Collects named chunks and writes them as one file (layout: container.cpp). `kind` says what the
-// file holds, in at most 16 bytes; `version` is that of the kind's chunks.
+// file holds, in at most 16 bytes; `version` is that of the kind's chunks. Chunks are packed, and
+// kept, as they are added; those that are large come later: nothing is kept of them.
 class Writer {
  public:
   Writer(std::string_view kind, uint32_t version, uint64_t sceneHash);
@@ -23,14 +25,41 @@ class Writer {
     static_assert(std::is_trivially_copyable_v<T>);
     addBytes(chunk, std::as_bytes(values), sizeof(T));
   }
+  // make(first, out) gives the items from `first` on, as many as `out` has; asked by save(), twice
+  // for each in turn, from one thread. It must give the same both times.
+  template <class T, class Make>
+  void addLater(std::string_view chunk, uint64_t count, const Make& make) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    addSource({std::string(chunk), sizeof(T), count,
+               [make, buffer = std::vector<T>()](uint64_t first, uint64_t items) mutable {
+                 buffer.resize(static_cast<size_t>(items));
+                 make(first, std::span<T>(buffer));
+                 return std::as_bytes(std::span<const T>(buffer));
+               }});
+  }
   void save(const std::string& file) const;
+
+  // A chunk whose bytes are asked for when they are written.
+  struct Source {
+    std::string chunk;
+    size_t itemSize;
+    uint64_t count;  // of items
+    // Bytes of some items, good until the next call.
+    std::function<std::span<const std::byte>(uint64_t first, uint64_t items)> items;
+  };
 
  private:
   void addBytes(std::string_view chunk, std::span<const std::byte> bytes, size_t itemSize);
+  void addSource(Source source);
   std::string kind_;
   uint32_t version_;
   uint64_t sceneHash_;
-  std::vector<std::byte> data_;
+  // Chunks in their order: bytes of some, then one that comes later.
+  struct Part {
+    std::vector<std::byte> bytes;
+    std::vector<Source> later;  // one at most
+  };
+  std::vector<Part> parts_;
 };
 
 class Reader {
@@ -67,6 +96,9 @@ class Reader {
 // What the file holds, by its header alone; "": it is none of ours. Throws RuntimeError where it
 // cannot be read.
 std::string kindOf(const std::string& file);
+// The scene hash of a file of ours, by its header alone; the rest may be damaged. Throws as
+// kindOf() does, InputError where it is none of ours.
+uint64_t sceneHashOf(const std::string& file);
 
 // XXH3, 64 bits.
 uint64_t hashBytes(std::span<const std::byte> bytes, uint64_t seed = 0);

@@ -1,11 +1,11 @@
 #include "lobelia/transfer/adaptive_mesh.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 
 #include "lobelia/transfer/mask_subdivision.h"
+#include "lobelia/transfer/memory_budget.h"
 
 namespace lobelia::transfer {
 namespace {
@@ -24,18 +24,13 @@ size_t mostVertices(const TransferSettings& settings, size_t before, Context& co
 
 }  // namespace
 
-uint64_t budgetOf(const TransferSettings& settings) {
-  if (settings.memoryBytes > 0) return settings.memoryBytes;
-  return static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<uint64_t>(sysconf(_SC_PAGE_SIZE)) / 4 * 3;
-}
-
 relight::SampleMesh adaptiveMesh(const Tracer& tracer, const TransferSettings& settings,
                                  Context& context) {
   relight::SampleMesh mesh = splitMesh(tracer.scene());
   const size_t before = mesh.positions().size();
   const MaskSettings masks{settings.maskLevel, settings.maskTolerance, settings.subdivision,
-                           mostVertices(settings, before, context), budgetOf(settings) / 4};
+                           mostVertices(settings, before, context),
+                           MemoryBudget(settings.memoryBytes).bytes() / 4};
   if (settings.subdivision > 0) mesh = subdividedByMasks(tracer, std::move(mesh), masks, context);
   context.debug(fmt::format("{} vertices, {} after subdivision", before, mesh.positions().size()));
   return mesh;

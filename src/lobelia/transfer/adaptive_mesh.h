@@ -8,10 +8,6 @@
 
 namespace lobelia::transfer {
 
-// Bytes of memory that a precomputation may take: those of the settings, or three quarters of the
-// machine's.
-uint64_t budgetOf(const TransferSettings& settings);
-
 // settings: maskLevel, maskTolerance, subdivision, mostVertices and memoryBytes count; masks have a
 // quarter of the memory. Warns where mostVertices is below what the scene has. Counts and throws as
 // subdividedByMasks().

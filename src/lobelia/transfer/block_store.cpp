@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "lobelia/base/random.h"
 #include "lobelia/relight/mesh_chunks.h"
 #include "lobelia/transfer/slice_chunks.h"
@@ -9,18 +11,13 @@
 namespace lobelia::transfer {
 namespace {
 
-template <class T>
-std::span<const T> spanOf(const std::vector<T>& values) {
-  return {values.data(), values.size()};
-}
-
 // Of all that blocks depend on. The number of bounces is not of it: a run with more of them goes on
 // where one with fewer has stopped.
 uint64_t hashOf(const TransferSettings& s, const Scene& scene) {
   uint64_t hash = transferHash(scene);
-  for (const int v : {s.directionLevel, s.rayLevel, s.maskLevel, s.subdivision, s.classCount,
-                      static_cast<int>(s.mostVertices)})
+  for (const int v : {s.directionLevel, s.rayLevel, s.maskLevel, s.subdivision, s.classCount})
     hash = hashCombine(hash, static_cast<uint64_t>(v));
+  hash = hashCombine(hash, s.mostVertices);
   return hashCombine(hash, static_cast<uint64_t>(std::lround(double{s.maskTolerance} * 1e9)));
 }
 
@@ -72,18 +69,18 @@ std::optional<BlockPass> BlockStore::find(size_t pass, size_t block, size_t rows
 void BlockStore::put(size_t pass, size_t block, const BlockPass& made) {
   if (!folder_) return;
   store::Writer writer = folder_->writer();
-  addPass({made.glossy, made.diffuse}, "p", &writer);
+  addPass(made.glossy, made.diffuse, "p", &writer);
   if (pass == 0) addRows(made.reflection, "own", &writer);
   folder_->put(nameOf(pass, block), writer);
 }
 
-BlockRays BlockStore::rays(size_t block) const {
+const BlockRays& BlockStore::rays(size_t block, BlockRays* read) const {
   if (!folder_) return inMemory_[block];
   const auto reader = folder_->find(raysName(block));
   if (!reader)
     throw RuntimeError(
         fmt::format("{} is gone or damaged; run again", folder_->fileOf(raysName(block))));
-  BlockRays rays;
+  BlockRays& rays = *read;
   const auto first = reader->get<uint64_t>("first");
   rays.first = first.empty() ? 0 : first[0];
   rays.blocked = reader->get<uint64_t>("blocked");
@@ -96,19 +93,24 @@ BlockRays BlockStore::rays(size_t block) const {
 }
 
 void BlockStore::putRays(size_t block, BlockRays rays) {
+  const uint64_t bytes = rays.byteCount();
+  for (uint64_t most = mostRayBytes_; bytes > most;)
+    if (mostRayBytes_.compare_exchange_weak(most, bytes)) break;
   if (!folder_) {
+    rays.hits.shrink_to_fit();  // grown without being known beforehand
+    rayBytes_ += bytes;
     inMemory_[block] = std::move(rays);
     return;
   }
   store::Writer writer = folder_->writer();
   const uint64_t first = rays.first;
   writer.add("first", std::span<const uint64_t>(&first, 1));
-  writer.add("blocked", spanOf(rays.blocked));
-  writer.add("hit-starts", spanOf(rays.hitStart));
-  writer.add("hits", spanOf(rays.hits));
-  writer.add("slice-starts", spanOf(rays.sliceStart));
-  writer.add("slices", spanOf(rays.slices));
-  writer.add("diffuse", spanOf(rays.diffuseWeight));
+  writer.add("blocked", std::span(std::as_const(rays.blocked)));
+  writer.add("hit-starts", std::span(std::as_const(rays.hitStart)));
+  writer.add("hits", std::span(std::as_const(rays.hits)));
+  writer.add("slice-starts", std::span(std::as_const(rays.sliceStart)));
+  writer.add("slices", std::span(std::as_const(rays.slices)));
+  writer.add("diffuse", std::span(std::as_const(rays.diffuseWeight)));
   folder_->put(raysName(block), writer);
 }
 

@@ -22,17 +22,21 @@ class BlockStore {
   // diffuse: sides of which there are diffuse lobes.
   std::optional<BlockPass> find(size_t pass, size_t block, size_t rows, size_t diffuse);
   void put(size_t pass, size_t block, const BlockPass& made);
-  BlockRays rays(size_t block) const;
+  // From memory, or from the folder into *read.
+  const BlockRays& rays(size_t block, BlockRays* read) const;
   void putRays(size_t block, BlockRays rays);
 
-  size_t resumed() const { return resumed_; }  // blocks that were there
-  void finish();                               // nothing is needed any more
+  uint64_t rayBytes() const { return rayBytes_; }          // in memory, of all blocks
+  uint64_t mostRayBytes() const { return mostRayBytes_; }  // of one block, wherever it is kept
+  size_t resumed() const { return resumed_; }              // blocks that were there
+  void finish();                                           // nothing is needed any more
 
  private:
   const int classCount_;
   std::optional<WorkFolder> folder_;
   size_t columns_ = 0;
   std::vector<BlockRays> inMemory_;
+  std::atomic<uint64_t> rayBytes_{0}, mostRayBytes_{0};
   std::atomic<size_t> resumed_{0};
 };
 

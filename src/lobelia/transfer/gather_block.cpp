@@ -135,7 +135,7 @@ class DirectPass {
     const RayCells* const cells = input_.cellsOf[index];
     cellSolidAngle_ = cells ? cells->solidAngle.data() : sphere_->solidAngle.data();
     weights_.setDirections(sphere_->chunks);
-    tracers_[input_.raysOf[index]].trace(input_.faces.at(index), &rays_);
+    tracers_[input_.raysOf[index]].trace(input_.faces->at(index), &rays_);
     const int64_t traced = nanosecondsNow();
     store();
     const Vertex vertex(input_, index);
@@ -373,6 +373,18 @@ class BouncePass {
 };
 
 }  // namespace
+
+size_t BlockRays::byteCount() const {
+  return blocked.size() * sizeof(uint64_t) + hits.size() * sizeof(RayHit) +
+         slices.size() * sizeof(SeeingSlice) + diffuseWeight.size() * sizeof(float) +
+         (hitStart.size() + sliceStart.size()) * sizeof(uint32_t);
+}
+
+size_t BlockPass::byteCount() const {
+  size_t bytes = diffuse.size() * sizeof(DiffuseLobes) + reflection.byteCount();
+  for (const SliceRows& rows : glossy) bytes += rows.byteCount();
+  return bytes;
+}
 
 void BlockCounts::add(const BlockCounts& o) {
   rays += o.rays, hits += o.hits, slices += o.slices, unoccluded += o.unoccluded;

@@ -31,7 +31,7 @@ struct GatherInput {
   const ReflectionTables& tables;
   const TransferData& data;  // mesh; passes, of which the last is being made
   const SliceLookup& lookup;
-  const relight::VertexFaces& faces;
+  const relight::VertexFaces* faces;     // of the direct pass alone
   std::span<const uint32_t> instanceOf;  // by triangle of the scene
   // By side of a vertex (data.diffuseSides): what its diffuse lobes receive in the pass before, all
   // octants together, for an albedo of 1. Empty: nothing.
@@ -56,12 +56,14 @@ struct BlockRays {
   std::vector<SeeingSlice> slices;
   std::vector<float> diffuseWeight;  // by side with diffuse light: of its lobes; 0: none
   size_t count() const { return hitStart.size() - 1; }
+  size_t byteCount() const;
 };
 
 struct BlockPass {
   std::vector<SliceRows> glossy;  // by class
   std::vector<DiffuseLobes> diffuse;
   SliceRows reflection;  // of the direct pass (TransferData::reflection)
+  size_t byteCount() const;
 };
 
 struct BlockCounts {

@@ -13,6 +13,7 @@
 #include "lobelia/transfer/block_store.h"
 #include "lobelia/transfer/buried_vertices.h"
 #include "lobelia/transfer/gather_block.h"
+#include "lobelia/transfer/memory_budget.h"
 
 namespace lobelia::transfer {
 namespace {
@@ -51,7 +52,7 @@ class Precomputation {
       : tracer_(tracer),
         settings_(settings),
         context_(context),
-        budget_(budgetOf(settings)),
+        budget_(settings.memoryBytes),
         tables_(tracer.scene()),
         directions_(settings.directionLevel),
         rays_(raySpheres(settings.rayLevel, directions_)),
@@ -59,19 +60,14 @@ class Precomputation {
 
   TransferData run() {
     makeMesh();
-    const relight::VertexFaces faces(tracer_.scene(), data_.mesh.mesh,
-                                     relight::leafTriangles(data_.mesh.mesh),
-                                     relight::bothSidesOf(tracer_.scene()));
-    data_.mesh.buried =
-        buriedVertices(tracer_, data_.mesh, faces, relight::bothSidesOf(tracer_.scene()));
-    const std::vector<uint32_t> instanceOf = instanceOfTriangles(data_.mesh.mesh);
+    instanceOf_ = instanceOfTriangles(data_.mesh.mesh);
+    raysOf_ = raysOfVertices();
+    const std::vector<const RayCells*> cellsOf = cellsOfVertices();
     data_.directionLevel = settings_.directionLevel;
     data_.classCount = settings_.classCount;
     const SliceLookup lookup(tracer_.scene(), data_, tables_);
-    const std::vector<uint8_t> raysOf = raysOfVertices();
-    const std::vector<const RayCells*> cellsOf = cellsOfVertices(raysOf);
-    GatherInput input{tracer_, rays_,  raysOf, cellsOf,    directions_, tables_,
-                      data_,   lookup, faces,  instanceOf, {},          anyDiffuse_};
+    GatherInput input{tracer_, rays_,  raysOf_, cellsOf,     directions_, tables_,
+                      data_,   lookup, nullptr, instanceOf_, {},          anyDiffuse_};
     blocks_ = (data_.mesh.vertices.size() + kBlock - 1) / kBlock;
     store_.setSize(blocks_, directions_.count());
     direct(input);
@@ -116,14 +112,14 @@ class Precomputation {
   }
 
   // By vertex, as GatherInput has them. Classes need rays one by one, each of which has its own.
-  std::vector<const RayCells*> cellsOfVertices(std::span<const uint8_t> raysOf) {
-    std::vector<const RayCells*> out(raysOf.size(), nullptr);
+  std::vector<const RayCells*> cellsOfVertices() {
+    std::vector<const RayCells*> out(raysOf_.size(), nullptr);
     if (settings_.classCount > 1) return out;
     for (const RaySphere& sphere : rays_) cells_.emplace_back(sphere, directions_);
     for (size_t v = 0; v < out.size(); ++v) {
       const float kappa =
           tables_.sharpest(tracer_.scene().instances[data_.mesh.vertices[v].instance].material);
-      const RayCells& cells = cells_[raysOf[v]];
+      const RayCells& cells = cells_[raysOf_[v]];
       if (cellsSuffice(cells.rayOf.size(), kappa)) out[v] = &cells;
     }
     return out;
@@ -141,39 +137,111 @@ class Precomputation {
   }
 
   // Blocks one after the other, as many at a time as there are threads; what they give is taken in
-  // their order. make(block) -> BlockPass.
+  // their order. A few from all over the mesh are made before all others: they tell whether there
+  // is memory for the rest. make(block) -> BlockPass.
   template <class Make>
   void forBlocks(const char* stage, const Make& make) {
     data_.passes.emplace_back();
     std::atomic<size_t> done{0};
     const size_t together = std::max<size_t>(8 * static_cast<size_t>(threadCount()), 1);
-    for (size_t first = 0; first < blocks_; first += together) {
-      std::vector<BlockPass> made(std::min(together, blocks_ - first));
-      parallelFor(made.size(), 1, [&](size_t i) {
+    const auto madeAt = [&](const auto& blockOf, size_t count) {
+      std::vector<BlockPass> made(count);
+      parallelFor(count, 1, [&](size_t i) {
         if (context_.cancelled()) return;
-        made[i] = make(first + i);
+        made[i] = make(blockOf(i));
         context_.progress(stage, static_cast<double>(++done) / static_cast<double>(blocks_));
       });
       if (context_.cancelled()) throw Cancelled{};
-      for (BlockPass& block : made) take(std::move(block));
-      requireBudget(stage, first + made.size());
+      return made;
+    };
+    const MemoryUse before = memoryUse();
+    const size_t pilots = blocks_ > 2 * together ? together : 0;
+    const auto pilotAt = [&](size_t i) { return i * blocks_ / pilots; };
+    std::vector<BlockPass> pilot = madeAt(pilotAt, pilots);
+    if (pilots > 0) requireMemory(stage, before, pilot, pilots);
+    size_t used = 0;  // pilots
+    std::vector<size_t> open;
+    for (size_t first = 0; first < blocks_; first += together) {
+      const size_t count = std::min(together, blocks_ - first);
+      open.clear();
+      for (size_t b = first, p = used; b < first + count; ++b)
+        if (p < pilots && pilotAt(p) == b)
+          ++p;
+        else
+          open.push_back(b);
+      std::vector<BlockPass> made = madeAt([&](size_t i) { return open[i]; }, open.size());
+      for (size_t b = first, i = 0; b < first + count; ++b)
+        take(used < pilots && pilotAt(used) == b ? std::move(pilot[used++]) : std::move(made[i++]));
+      requireMemory(stage, before, std::span(pilot).subspan(used), first + count + pilots - used);
     }
   }
 
   void take(BlockPass block) {
     // Of the pass under way, which nobody reads before it is whole.
     TransferPass& pass = data_.passes.back();
-    if (pass.glossy.empty())
+    const size_t vertices = data_.mesh.vertices.size();
+    if (pass.glossy.empty()) {
       pass.glossy.assign(block.glossy.size(), SliceRows(directions_.count()));
+      for (SliceRows& rows : pass.glossy) rows.reserveRows(vertices);
+      if (!block.diffuse.empty()) pass.diffuse.reserve(vertices);
+    }
     for (size_t c = 0; c < block.glossy.size(); ++c) pass.glossy[c].append(block.glossy[c]);
     pass.diffuse.insert(pass.diffuse.end(), block.diffuse.begin(), block.diffuse.end());
     if (block.reflection.rowCount() == 0) return;
-    if (data_.reflection.rowCount() == 0) data_.reflection = SliceRows(directions_.count());
+    if (data_.reflection.rowCount() == 0) {
+      data_.reflection = SliceRows(directions_.count());
+      data_.reflection.reserveRows(vertices);
+    }
     data_.reflection.append(block.reflection);
   }
 
-  void direct(const GatherInput& input) {
+  // Of what does not grow. faces: is what is known of them there?
+  uint64_t meshBytes(bool faces) const {
+    const relight::SampleMesh& mesh = data_.mesh.mesh;
+    const size_t vertices = data_.mesh.vertices.size(), triangles = mesh.triangles().size();
+    return vertices * (sizeof(Vec3f) + sizeof(TransferVertex) + sizeof(uint8_t)) +
+           triangles * (sizeof(relight::SampleTriangle) + sizeof(uint32_t)) +
+           (faces ? triangles * 3 * sizeof(relight::FacePlace) : vertices * sizeof(LobeMoment));
+  }
+
+  MemoryUse memoryUse() const {
+    return {meshBytes(data_.passes.size() == 1), data_.byteCount(), store_.rayBytes(),
+            // Rays of a block are there as they are, packed, and on their way there.
+            3 * static_cast<uint64_t>(threadCount()) * store_.mostRayBytes()};
+  }
+
+  // Rows without anything in them and diffuse lobes, of passes to come.
+  uint64_t leastOfLaterPasses() const {
+    const size_t words = (directions_.count() + 63) / 64;
+    const size_t row = words * (sizeof(uint64_t) + sizeof(uint16_t)) + sizeof(uint64_t);
+    const size_t vertex = row * static_cast<size_t>(settings_.classCount + 1) +
+                          (anyDiffuse_ ? sizeof(DiffuseLobes) : 0);
+    const size_t passes = static_cast<size_t>(settings_.bounces) + 1 - data_.passes.size();
+    return passes * vertex * data_.mesh.vertices.size();
+  }
+
+  // before: when the stage began. waiting: blocks that are made, not taken. done: blocks that the
+  // stage has made.
+  void requireMemory(const char* stage, const MemoryUse& before, std::span<const BlockPass> waiting,
+                     size_t done) const {
+    uint64_t bytes = 0;
+    for (const BlockPass& block : waiting) bytes += block.byteCount();
+    MemoryUse now = memoryUse();
+    now.transfer += bytes;
+    const size_t vertices = data_.mesh.vertices.size();
+    budget_.require(now, {0, now.transfer - before.transfer, now.rays - before.rays, 0},
+                    {stage, std::min(done * kBlock, vertices), vertices, leastOfLaterPasses()});
+  }
+
+  void direct(GatherInput input) {
     const int64_t start = nanosecondsNow();
+    // Gone at the end of the pass: as large as the mesh several times over.
+    const relight::VertexFaces faces(tracer_.scene(), data_.mesh.mesh,
+                                     relight::leafTriangles(data_.mesh.mesh),
+                                     relight::bothSidesOf(tracer_.scene()));
+    input.faces = &faces;
+    data_.mesh.buried =
+        buriedVertices(tracer_, data_.mesh, faces, relight::bothSidesOf(tracer_.scene()));
     BlockCounts counts;
     std::mutex mutex;
     forBlocks("rays and direct light", [&](size_t b) {
@@ -212,7 +280,8 @@ class Precomputation {
       if (std::optional<BlockPass> known = storedPass(j, b)) return std::move(*known);
       BlockPass pass;
       BlockCounts mine;
-      bounceBlock(input, j, store_.rays(b), &pass, &mine);
+      BlockRays read;
+      bounceBlock(input, j, store_.rays(b, &read), &pass, &mine);
       store_.put(j, b, pass);
       const std::lock_guard lock(mutex);
       counts.add(mine);
@@ -235,19 +304,6 @@ class Precomputation {
     s.addCount("nonfinite", counts.nonFinite);
   }
 
-  void requireBudget(const char* stage, size_t blocksDone) const {
-    const uint64_t bytes = data_.byteCount();
-    if (bytes <= budget_) return;
-    const size_t vertices = data_.mesh.vertices.size();
-    const size_t done = std::min(blocksDone * kBlock, vertices);
-    const auto kilobytes = [](uint64_t b) { return (b + 1023) / 1024; };
-    throw RuntimeError(fmt::format(
-        "--memory {}K is too little: {} of {} vertices already have {}K of transfer ({}); give "
-        "more, or take fewer --directions or --bounces or a coarser mesh (--max-vertices, "
-        "--subdivide)",
-        kilobytes(budget_), done, vertices, kilobytes(bytes), stage));
-  }
-
   void report() const {
     context_.statistics.addCount("records", data_.recordCount());
     context_.statistics.addCount("blocks", blocks_ * data_.passes.size());
@@ -257,13 +313,15 @@ class Precomputation {
   const Tracer& tracer_;
   const TransferSettings& settings_;
   Context& context_;
-  const uint64_t budget_;
+  const MemoryBudget budget_;
   const ReflectionTables tables_;
   const GeodesicGrid directions_;
   const std::vector<RaySphere> rays_;
   std::vector<RayCells> cells_;  // of rays_
   BlockStore store_;
   TransferData data_;
+  std::vector<uint32_t> instanceOf_;  // by triangle of the scene
+  std::vector<uint8_t> raysOf_;       // by vertex
   bool anyDiffuse_ = false;
   size_t blocks_ = 0;
 };

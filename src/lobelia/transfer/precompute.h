@@ -19,9 +19,11 @@ struct TransferSettings {
   // Vertices that subdivision may leave; 0: as many as it adds to the scene's, or 20,000 if that is
   // more.
   size_t mostVertices = 0;
-  int bounces = 2;           // reflections at other surfaces: passes - 1
-  int classCount = 1;        // TransferData::classCount
-  uint64_t memoryBytes = 0;  // budget; 0: three quarters of the machine's
+  int bounces = 2;     // reflections at other surfaces: passes - 1
+  int classCount = 1;  // TransferData::classCount
+  // Budget for all that is made, the scene itself and its tree of rays not counted; 0: three
+  // quarters of the machine's.
+  uint64_t memoryBytes = 0;
   // Folder for what is done so far, from which a run that was stopped goes on; made if it is not
   // there, emptied and removed at the end. "": none.
   std::string workFolder;
@@ -32,7 +34,8 @@ struct TransferSettings {
 };
 
 // No randomness. Throws Cancelled when the context is (what is done stays in the work folder),
-// RuntimeError where the budget is too small, with what would fit. Seconds by stage: "masks"
+// RuntimeError where the budget is too small, with about what is needed, after few blocks of a
+// pass if the whole of it cannot fit. Seconds by stage: "masks"
 // (masks and subdivision), "trace", "direct", "bounce". Counts: "vertices", "vertices_added",
 // "mask_rays", "transfer_rays", "hits", "slices", "slices_unoccluded", "records", "blocks" (of all
 // passes), "blocks_resumed", "nonfinite"; rays, hits and slices are those of blocks that were not

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace lobelia::transfer {
@@ -12,37 +14,47 @@ namespace {
   throw InputError({file}, what + "; make it again with `lobelia precompute --method vmf`");
 }
 
-template <class T>
-std::span<const T> spanOf(const std::vector<T>& values) {
-  return {values.data(), values.size()};
-}
-
-void addRecords(std::span<const SliceRecord> records, const std::string& name,
+// recordAt(i) of `count` records.
+template <class At>
+void addRecords(uint64_t count, const At& recordAt, const std::string& name,
                 store::Writer* writer) {
-  std::vector<uint32_t> shares, lobes;
-  shares.reserve(records.size()), lobes.reserve(records.size());
-  for (const SliceRecord record : records)
-    shares.push_back(record.share), lobes.push_back(record.lobe);
-  writer->add(name + "-s", spanOf(shares));
-  writer->add(name + "-l", spanOf(lobes));
+  const auto add = [&](const char* suffix, const auto& part) {
+    writer->addLater<uint32_t>(name + suffix, count,
+                               [recordAt, part](uint64_t first, std::span<uint32_t> out) {
+                                 for (uint32_t& v : out) v = part(recordAt(first++));
+                               });
+  };
+  add("-s", [](SliceRecord record) { return record.share; });
+  add("-l", [](SliceRecord record) { return record.lobe; });
 }
 
-std::vector<SliceRecord> readRecords(const store::Reader& reader, const std::string& file,
-                                     const std::string& name) {
+SliceRecords readRecords(const store::Reader& reader, const std::string& file,
+                         const std::string& name) {
   const auto shares = reader.get<uint32_t>(name + "-s"), lobes = reader.get<uint32_t>(name + "-l");
   if (shares.size() != lobes.size())
     damaged(file,
             fmt::format("'{}' has {} shares for {} lobes", name, shares.size(), lobes.size()));
-  std::vector<SliceRecord> records(shares.size());
-  for (size_t i = 0; i < records.size(); ++i) records[i] = {shares[i], lobes[i]};
+  SliceRecords records;
+  std::array<SliceRecord, 1024> some;
+  for (size_t i = 0; i < shares.size();) {
+    size_t count = 0;
+    for (; count < some.size() && i < shares.size(); ++i) some[count++] = {shares[i], lobes[i]};
+    records.append(std::span(some).first(count));
+  }
   return records;
 }
 
 }  // namespace
 
 void addRows(const SliceRows& rows, const std::string& name, store::Writer* writer) {
-  writer->add(name + "-b", rows.bits());
-  addRecords(rows.records(), name, writer);
+  writer->addLater<uint64_t>(name + "-b", rows.bits().size(),
+                             [bits = rows.bits()](uint64_t first, std::span<uint64_t> out) {
+                               std::copy_n(bits.begin() + static_cast<std::ptrdiff_t>(first),
+                                           out.size(), out.begin());
+                             });
+  addRecords(
+      rows.recordCount(), [&records = rows.records()](uint64_t i) { return records[i]; }, name,
+      writer);
 }
 
 SliceRows readRows(const store::Reader& reader, const std::string& file, const std::string& name,
@@ -57,12 +69,13 @@ SliceRows readRows(const store::Reader& reader, const std::string& file, const s
   }
 }
 
-void addPass(const TransferPass& pass, const std::string& name, store::Writer* writer) {
-  for (size_t c = 0; c < pass.glossy.size(); ++c)
-    addRows(pass.glossy[c], fmt::format("{}g{}", name, c), writer);
+void addPass(std::span<const SliceRows> glossy, std::span<const DiffuseLobes> diffuse,
+             const std::string& name, store::Writer* writer) {
+  for (size_t c = 0; c < glossy.size(); ++c)
+    addRows(glossy[c], fmt::format("{}g{}", name, c), writer);
   addRecords(
-      {reinterpret_cast<const SliceRecord*>(pass.diffuse.data()), pass.diffuse.size() * kOctants},
-      name + "d", writer);
+      diffuse.size() * kOctants,
+      [diffuse](uint64_t i) { return diffuse[i / kOctants][i % kOctants]; }, name + "d", writer);
 }
 
 TransferPass readPass(const store::Reader& reader, const std::string& file, const std::string& name,
@@ -71,8 +84,8 @@ TransferPass readPass(const store::Reader& reader, const std::string& file, cons
   for (size_t c = 0; c < size.classes; ++c)
     pass.glossy.push_back(
         readRows(reader, file, fmt::format("{}g{}", name, c), size.rows, size.columns));
-  const std::vector<SliceRecord> records = readRecords(reader, file, name + "d");
-  if (!records.empty() && records.size() != size.diffuse * kOctants)
+  const SliceRecords records = readRecords(reader, file, name + "d");
+  if (records.size() > 0 && records.size() != size.diffuse * kOctants)
     damaged(file, fmt::format("'{}' has {} diffuse lobes for {} sides of vertices", name,
                               records.size(), size.diffuse));
   pass.diffuse.resize(records.size() / kOctants);
@@ -82,7 +95,7 @@ TransferPass readPass(const store::Reader& reader, const std::string& file, cons
 
 void addDiffuseSides(const DiffuseSides& sides, store::Writer* writer) {
   const std::vector<uint32_t> backs = sides.backs();
-  writer->add("backs", spanOf(backs));
+  writer->add("backs", std::span<const uint32_t>(backs));
 }
 
 DiffuseSides readDiffuseSides(const store::Reader& reader, const std::string& file, size_t rows) {

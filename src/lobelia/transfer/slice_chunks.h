@@ -8,7 +8,8 @@
 
 namespace lobelia::transfer {
 
-// `name`: of the rows; their chunks' names begin with it.
+// `name`: of the rows; their chunks' names begin with it. Rows and passes have to stay until the
+// writer has saved them: they are not copied.
 void addRows(const SliceRows& rows, const std::string& name, store::Writer* writer);
 // Throws InputError, which names the file, unless there are so many rows of so many columns.
 SliceRows readRows(const store::Reader& reader, const std::string& file, const std::string& name,
@@ -19,7 +20,8 @@ struct PassSize {
   size_t rows = 0, columns = 0;
   size_t diffuse = 0;  // sides of vertices, of all of which there are diffuse lobes or of none
 };
-void addPass(const TransferPass& pass, const std::string& name, store::Writer* writer);
+void addPass(std::span<const SliceRows> glossy, std::span<const DiffuseLobes> diffuse,
+             const std::string& name, store::Writer* writer);
 TransferPass readPass(const store::Reader& reader, const std::string& file, const std::string& name,
                       const PassSize& size);
 // "backs": the vertices that are diffuse behind. Throws InputError unless all are below rows, and

@@ -10,7 +10,7 @@ SliceRows::SliceRows(size_t columns) : columns_(columns) {
     throw std::invalid_argument("rows of slices have fewer than 65,536 columns");
 }
 
-SliceRows::SliceRows(size_t columns, std::vector<uint64_t> bits, std::vector<SliceRecord> records)
+SliceRows::SliceRows(size_t columns, std::vector<uint64_t> bits, SliceRecords records)
     : SliceRows(columns) {
   const size_t words = wordsPerRow();
   if (words == 0 ? !bits.empty() : bits.size() % words != 0)
@@ -30,6 +30,12 @@ SliceRows::SliceRows(size_t columns, std::vector<uint64_t> bits, std::vector<Sli
   bits_ = std::move(bits), records_ = std::move(records);
 }
 
+void SliceRows::reserveRows(size_t rows) {
+  bits_.reserve(rows * wordsPerRow());
+  before_.reserve(rows * wordsPerRow());
+  starts_.reserve(rows);
+}
+
 void SliceRows::addRow(std::span<const uint32_t> columns, std::span<const SliceRecord> records) {
   const size_t first = bits_.size();
   bits_.resize(first + wordsPerRow(), 0);
@@ -40,7 +46,7 @@ void SliceRows::addRow(std::span<const uint32_t> columns, std::span<const SliceR
     before = static_cast<uint16_t>(before + std::popcount(bits_[w]));
   }
   starts_.push_back(records_.size());
-  records_.insert(records_.end(), records.begin(), records.end());
+  records_.append(records);
 }
 
 void SliceRows::append(const SliceRows& other) {
@@ -49,7 +55,7 @@ void SliceRows::append(const SliceRows& other) {
   bits_.insert(bits_.end(), other.bits_.begin(), other.bits_.end());
   before_.insert(before_.end(), other.before_.begin(), other.before_.end());
   for (const uint64_t start : other.starts_) starts_.push_back(start + records_.size());
-  records_.insert(records_.end(), other.records_.begin(), other.records_.end());
+  records_.append(other.records_);
 }
 
 size_t SliceRows::byteCount() const {

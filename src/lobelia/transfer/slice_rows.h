@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "lobelia/transfer/slice_record.h"
+#include "lobelia/transfer/slice_records.h"
 
 namespace lobelia::transfer {
 
@@ -19,7 +19,9 @@ class SliceRows {
   SliceRows() = default;
   explicit SliceRows(size_t columns);
   // Throws std::invalid_argument when bits, starts and records do not fit together.
-  SliceRows(size_t columns, std::vector<uint64_t> bits, std::vector<SliceRecord> records);
+  SliceRows(size_t columns, std::vector<uint64_t> bits, SliceRecords records);
+  // Room for so many, all told: append() then takes no more memory than rows need.
+  void reserveRows(size_t rows);
 
   // The next row: ascending columns and their records.
   void addRow(std::span<const uint32_t> columns, std::span<const SliceRecord> records);
@@ -33,8 +35,8 @@ class SliceRows {
   // Null: nothing is stored there.
   const SliceRecord* find(size_t row, size_t column) const;
 
-  std::span<const uint64_t> bits() const { return bits_; }           // rowCount() x wordsPerRow()
-  std::span<const SliceRecord> records() const { return records_; }  // row by row
+  std::span<const uint64_t> bits() const { return bits_; }  // rowCount() x wordsPerRow()
+  const SliceRecords& records() const { return records_; }  // row by row
   size_t wordsPerRow() const { return (columns_ + 63) / 64; }
 
  private:
@@ -42,7 +44,7 @@ class SliceRows {
   std::vector<uint64_t> bits_;
   std::vector<uint16_t> before_;  // by word: records of the row before it
   std::vector<uint64_t> starts_;  // by row: its first record
-  std::vector<SliceRecord> records_;
+  SliceRecords records_;
 };
 
 }  // namespace lobelia::transfer

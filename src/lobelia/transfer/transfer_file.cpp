@@ -82,7 +82,7 @@ void save(const TransferData& data, const Scene& scene, const std::string& file)
   addDiffuseSides(data.diffuseSides, &writer);
   writer.add("buried", std::span(data.mesh.buried.data(), data.mesh.buried.size()));
   for (size_t j = 0; j < data.passes.size(); ++j)
-    addPass(data.passes[j], fmt::format("p{}", j), &writer);
+    addPass(data.passes[j].glossy, data.passes[j].diffuse, fmt::format("p{}", j), &writer);
   if (reflection) addRows(data.reflection, "own", &writer);
   writer.save(file);
 }

@@ -13,27 +13,24 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kSuffix = ".block";
 constexpr const char* kKind = "transfer-block";
-constexpr uint32_t kVersion = 2;  // 1: diffuse light in front alone
+constexpr uint32_t kVersion = 2;             // 1: diffuse light in front alone
 constexpr const char* kParents = "parents";  // block of how many folders above were made
 
 [[noreturn]] void refuse(const std::string& file) {
   throw InputError({file}, "this is no block of a precomputation; give --work a folder of its own");
 }
 
-// False: the block is damaged, which find() says. Throws InputError where it is of another hash, or
-// something else that only has a block's name, and would be overwritten.
-bool isOf(const std::string& file, const std::string& folder, uint64_t hash) {
-  if (!fs::is_regular_file(file) ||
-      (!readFileStart(file, 1).empty() && store::kindOf(file) != kKind))
-    refuse(file);
-  try {
-    if (store::Reader(file, kKind, kVersion).sceneHash() == hash) return true;
-  } catch (const InputError&) {
-    return false;
-  }
-  throw InputError({folder},
-                   "what is done there is of another scene or of other settings; delete the "
-                   "folder, or give --work another");
+// By headers alone: blocks are many and large, and those that are damaged inside are found out when
+// they are needed. An empty file is a damaged block. Throws InputError where a block is of another
+// hash, or something else that only has a block's name, and would be overwritten.
+void requireOf(const std::string& file, const std::string& folder, uint64_t hash) {
+  if (!fs::is_regular_file(file)) refuse(file);
+  if (readFileStart(file, 1).empty()) return;
+  if (store::kindOf(file) != kKind) refuse(file);
+  if (store::sceneHashOf(file) != hash)
+    throw InputError({folder},
+                     "what is done there is of another scene or of other settings; delete the "
+                     "folder, or give --work another");
 }
 
 fs::path wholePath(const std::string& path) {
@@ -69,8 +66,8 @@ WorkFolder::WorkFolder(const std::string& path, uint64_t hash, Context& context)
       leftovers.push_back(entry.path());
     else if (entry.path().extension() != kSuffix)
       refuse(file);
-    else if (isOf(file, path, hash) && file != fileOf(kParents))
-      ++found;
+    else
+      requireOf(file, path, hash), found += file != fileOf(kParents) ? 1 : 0;
   }
   // Of a killed run. Only now: before, the folder might have been somebody else's.
   for (const fs::path& file : leftovers) fs::remove(file, error);
@@ -80,7 +77,7 @@ WorkFolder::WorkFolder(const std::string& path, uint64_t hash, Context& context)
     block.add("count", std::span(&parents, 1));
     put(kParents, block);
   }
-  if (found > 0) context.info(fmt::format("going on from {}: {} blocks are done", path, found));
+  if (found > 0) context.info(fmt::format("going on from {}: {} blocks are there", path, found));
 }
 
 store::Writer WorkFolder::writer() const { return {kKind, kVersion, hash_}; }
