@@ -246,5 +246,27 @@ TEST_F(TransferFile, HasARowOfReflectionForEveryVertex) {
     for (const size_t k : {0u, 100u, 161u}) ASSERT_EQ(back.reflection.find(v, k), nullptr);
 }
 
+// Without surfaces, or with such as have no area, there is a file, and it is read.
+TEST(TransferOfNothing, IsSavedAndRead) {
+  const test::TemporaryFolder folder;
+  for (const bool line : {false, true}) {
+    Scene scene;
+    if (line) {
+      Mesh mesh;
+      mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+      mesh.triangles = {{0, 1, 2}};
+      test::place(scene, mesh);
+      scene.instances[0].material =
+          test::addMaterial(scene, test::phongMaterial(Rgb(0.2f), Rgb(0.5f), 20));
+    }
+    TransferSettings settings = test::coarseTransfer();
+    settings.classCount = 2;
+    Context context;
+    const TransferData made = test::transferOf(scene, settings, context);
+    save(made, scene, folder / "nothing");
+    test::expectSame(load(folder / "nothing", scene), made);
+  }
+}
+
 }  // namespace
 }  // namespace lobelia::transfer

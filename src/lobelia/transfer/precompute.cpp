@@ -141,7 +141,7 @@ class Precomputation {
   // is memory for the rest. make(block) -> BlockPass.
   template <class Make>
   void forBlocks(const char* stage, const Make& make) {
-    data_.passes.emplace_back();
+    addPass();
     std::atomic<size_t> done{0};
     const size_t together = std::max<size_t>(8 * static_cast<size_t>(threadCount()), 1);
     const auto madeAt = [&](const auto& blockOf, size_t count) {
@@ -176,23 +176,26 @@ class Precomputation {
     }
   }
 
+  // Of a scene without surfaces, too: its rows are none, but they are there.
+  void addPass() {
+    const bool first = data_.passes.empty();
+    TransferPass& pass = data_.passes.emplace_back();
+    pass.glossy.assign(first ? 1 : static_cast<size_t>(settings_.classCount) + 1,
+                       SliceRows(directions_.count()));
+    for (SliceRows& rows : pass.glossy) rows.reserveRows(data_.mesh.vertices.size());
+    if (!first) return;
+    data_.reflection = SliceRows(directions_.count());
+    data_.reflection.reserveRows(data_.mesh.vertices.size());
+  }
+
   void take(BlockPass block) {
     // Of the pass under way, which nobody reads before it is whole.
     TransferPass& pass = data_.passes.back();
     const size_t vertices = data_.mesh.vertices.size();
-    if (pass.glossy.empty()) {
-      pass.glossy.assign(block.glossy.size(), SliceRows(directions_.count()));
-      for (SliceRows& rows : pass.glossy) rows.reserveRows(vertices);
-      if (!block.diffuse.empty()) pass.diffuse.reserve(vertices);
-    }
+    if (pass.diffuse.empty() && !block.diffuse.empty()) pass.diffuse.reserve(vertices);
     for (size_t c = 0; c < block.glossy.size(); ++c) pass.glossy[c].append(block.glossy[c]);
     pass.diffuse.insert(pass.diffuse.end(), block.diffuse.begin(), block.diffuse.end());
-    if (block.reflection.rowCount() == 0) return;
-    if (data_.reflection.rowCount() == 0) {
-      data_.reflection = SliceRows(directions_.count());
-      data_.reflection.reserveRows(vertices);
-    }
-    data_.reflection.append(block.reflection);
+    if (data_.passes.size() == 1) data_.reflection.append(block.reflection);
   }
 
   // Of what does not grow. faces: is what is known of them there?

@@ -12,7 +12,7 @@ namespace lobelia::transfer {
 
 struct TransferSettings {
   int directionLevel = 3;  // 642 directions to the eye
-  int rayLevel = 0;        // grid of rays from each vertex; 0: as fine as the sharpest lobe needs
+  int rayLevel = 0;        // grid of rays from each vertex; 0: 5, or 6 where its lobes need it
   int maskLevel = 7;       // grid of visibility masks for subdivision: 163,842
   float maskTolerance = 0.005f;  // share of a mask by which the ends of an edge may differ
   int subdivision = 3;           // how often an edge may be halved; 0: the mesh stays as it is

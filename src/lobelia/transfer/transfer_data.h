@@ -61,8 +61,8 @@ inline int classOf(MaterialHandle material, int classCount) {
   return classCount <= 1 ? 0 : static_cast<int>(material.index % static_cast<uint32_t>(classCount));
 }
 
-// Of all that the data depends on: geometry (relight::geometryHash) and materials with their
-// textures. Emitters and cameras may change.
+// Of all that the data depends on (surfaceHash()): geometry and materials with their textures.
+// Emitters and cameras may change.
 uint64_t transferHash(const Scene& scene);
 
 void save(const TransferData& data, const Scene& scene, const std::string& file);
