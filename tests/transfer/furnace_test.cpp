@@ -77,10 +77,10 @@ double energy(const SliceLookup& lookup, const TransferData& data, const Reflect
   const relight::SurroundingVertices around{{vertex, vertex, vertex}, {1, 0, 0}};
   std::array<LobeMoment, kMostClasses + 1> byClass{};
   const size_t classes = data.passes[pass].glossy.size();
-  lookup.glossy(lookup.view(around, own, wo), pass, {byClass.data(), classes});
+  lookup.glossy(lookup.view(around, own, wo, Side::front), pass, {byClass.data(), classes});
   double sum = 0;
   for (const LobeMoment& m : byClass) sum += static_cast<double>(luminance(m.alpha));
-  for (const LobeMoment& m : lookup.diffuse(around, pass, own.diffuse))
+  for (const LobeMoment& m : lookup.diffuse(around, Side::front, pass, own.diffuse))
     sum += static_cast<double>(luminance(m.alpha));
   return sum;
 }

@@ -35,7 +35,7 @@ using relight::SampleMesh;
 using relight::VertexFaces;
 
 // In parts of the scene's diagonal.
-constexpr float kShortest = 1.f / 400, kLongest = 1.f / 8;
+constexpr float kShortest = 1.f / 100, kLongest = 1.f / 8;
 constexpr int kLongRounds = 8;   // at most so many to halve long edges
 constexpr size_t kBatch = 4096;  // edges whose masks are there at a time
 
@@ -161,8 +161,7 @@ class Subdivider {
         masks_[e.a].unpack(&a), masks_[e.b].unpack(&b);
         const float share =
             static_cast<float>(differing(a, b)) / static_cast<float>(directions_.count());
-        // Of those that differ too much the first are such as do so over much of the surface.
-        if (share > settings_.tolerance) e.error = share * lengthOf(e);
+        if (share > settings_.tolerance) e.error = share;
       }
     });
   }
