@@ -73,6 +73,7 @@ inline void expectSame(const transfer::TransferData& a, const transfer::Transfer
                 left.n == right.n)
         << v;
   }
+  EXPECT_EQ(a.mesh.buried, b.mesh.buried);
   EXPECT_EQ(a.diffuseSides.backs(), b.diffuseSides.backs());
   ASSERT_EQ(a.passes.size(), b.passes.size());
   for (size_t j = 0; j < a.passes.size(); ++j) {

@@ -196,6 +196,8 @@ void ViewFrames::chooseBounce(const ScriptStep& step) {
   std::string why = whyNoBounce(step.count, stage_.transferPasses());
   if (step.count >= 0 && why.empty() && view_.method != ViewMethod::transfer)
     why = "this is of frames by transfer; add a line before it: method transfer";
+  if (step.count >= 0 && why.empty() && view_.component != "all")
+    why = fmt::format("the command line has --component {}; leave that out", view_.component);
   if (!why.empty()) throw InputError(step.where, fmt::format("bounce {}: {}", step.count, why));
   view_.bounce = step.count;
 }

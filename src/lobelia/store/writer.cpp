@@ -10,6 +10,7 @@
 #include <cassert>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 
 #include "lobelia/base/atomic_file.h"
 #include "lobelia/base/error.h"
@@ -94,7 +95,9 @@ class CheckedFile {
     if (bytes.empty()) return;
     XXH3_64bits_update(state_.get(), bytes.data(), bytes.size());
     out_.write(bytes);
+    written_ += bytes.size();
   }
+  uint64_t written() const { return written_; }
   void finish() {
     std::vector<std::byte> checksum;
     put(checksum, uint64_t{XXH3_64bits_digest(state_.get())});
@@ -105,6 +108,7 @@ class CheckedFile {
  private:
   static void free(XXH3_state_t* state) { XXH3_freeState(state); }
   AtomicFile out_;
+  uint64_t written_ = 0;
   std::unique_ptr<XXH3_state_t, void (*)(XXH3_state_t*)> state_;
 };
 
@@ -160,6 +164,10 @@ void Writer::save(const std::string& file) const {
       pack(source, [&](Bytes bytes) { out.write(bytes); });
     }
   }
+  // The sizes in the file are those of the first packing.
+  if (out.written() != header.size() + size)
+    throw std::logic_error(file +
+                           ": a chunk was another when it was written than when it was measured");
   out.finish();
 }
 

@@ -1,5 +1,6 @@
 #include "lobelia/transfer/arrivals.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace lobelia::transfer {
@@ -63,7 +64,8 @@ void Arrivals::gatherRays() {
 
 void Arrivals::gatherCells(const RayCells& cells) {
   const size_t count = cells.rayOf.size();
-  middle_.resize(count), instance_.resize(count), sums_.resize(count), has_.resize(count);
+  middle_.resize(count), instance_.resize(count), position_.resize(count);
+  sums_.resize(count), has_.resize(count);
   for (size_t i = 0; i < count; ++i) {
     const uint32_t ray = cells.rayOf[i];
     sums_[i] = {};
@@ -71,15 +73,15 @@ void Arrivals::gatherCells(const RayCells& cells) {
     has_[i] = isBlocked(ray) ? 1 : 0;
     if (has_[i] == 0) continue;
     instance_[i] = input_.instanceOf[hitOf(ray).triangle] + 1;
+    position_[i] = positionOf(hitOf(ray));
     middle_[i] = alongRay(ray);
     addTo(&sums_[i], sphere_->solidAngle[ray], middle_[i]);
   }
   for (const RayCells::Middle& m : cells.middles) {
     if (!isBlocked(m.ray)) continue;
     const float half = 0.5f * sphere_->solidAngle[m.ray];
-    const uint32_t instance = input_.instanceOf[hitOf(m.ray).triangle] + 1;
     has_[m.a] = has_[m.b] = 1;
-    if (instance_[m.a] == instance && instance_[m.b] == instance) {
+    if (isBetween(m.a, m.b, hitOf(m.ray))) {
       for (const uint32_t from : {m.a, m.b})
         for (const uint32_t to : {m.a, m.b}) addTo(&sums_[to], 0.5f * half, middle_[from]);
     } else {
@@ -101,6 +103,22 @@ const RayHit& Arrivals::hitOf(size_t ray) const {
   const uint64_t below = (uint64_t{1} << ray % 64) - 1;
   return rays_.hits[hitsBefore_[ray / 64] +
                     static_cast<size_t>(std::popcount(rays_.blocked[ray / 64] & below))];
+}
+
+Vec3f Arrivals::positionOf(const RayHit& hit) const {
+  const relight::SampleMesh& mesh = input_.data.mesh.mesh;
+  const auto& v = mesh.triangles()[hit.triangle].vertex;
+  const Hit at = hit.at(0, 0);
+  return mesh.positions()[v[0]] * (1 - at.b1 - at.b2) + mesh.positions()[v[1]] * at.b1 +
+         mesh.positions()[v[2]] * at.b2;
+}
+
+// Do the rays of two cells and one between end at one surface, as far as three places can tell?
+bool Arrivals::isBetween(size_t a, size_t b, const RayHit& hit) const {
+  const uint32_t instance = input_.instanceOf[hit.triangle] + 1;
+  if (instance_[a] != instance || instance_[b] != instance) return false;
+  const Vec3f half = (position_[b] - position_[a]) * 0.5f;
+  return lengthSquared(positionOf(hit) - position_[a] - half) < 0.25f * lengthSquared(half);
 }
 
 Incoming Arrivals::alongRay(size_t ray) {

@@ -51,6 +51,8 @@ class Arrivals {
   void gatherCells(const RayCells& cells);
   Incoming alongRay(size_t ray);
   const RayHit& hitOf(size_t ray) const;
+  Vec3f positionOf(const RayHit& hit) const;
+  bool isBetween(size_t a, size_t b, const RayHit& hit) const;
   bool isBlocked(size_t ray) const { return (rays_.blocked[ray / 64] >> ray % 64 & 1) != 0; }
   LobeMoment diffuseOf(const relight::SurroundingVertices& around, Side side, Rgb albedo) const;
   Reflection ownOf(MaterialHandle material, const relight::SurroundingVertices& around,
@@ -70,6 +72,7 @@ class Arrivals {
   // is not blocked; sums; whether there is any.
   std::vector<Incoming> middle_, sums_;
   std::vector<uint32_t> instance_;
+  std::vector<Vec3f> position_;  // where these rays end
   std::vector<uint8_t> has_;
 };
 

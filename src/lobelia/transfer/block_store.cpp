@@ -74,7 +74,7 @@ void BlockStore::put(size_t pass, size_t block, const BlockPass& made) {
   folder_->put(nameOf(pass, block), writer);
 }
 
-const BlockRays& BlockStore::rays(size_t block, BlockRays* read) const {
+const BlockRays& BlockStore::rays(size_t block, BlockRays* read) {
   if (!folder_) return inMemory_[block];
   const auto reader = folder_->find(raysName(block));
   if (!reader)
@@ -89,15 +89,21 @@ const BlockRays& BlockStore::rays(size_t block, BlockRays* read) const {
   rays.sliceStart = reader->get<uint32_t>("slice-starts");
   rays.slices = reader->get<SeeingSlice>("slices");
   rays.diffuseWeight = reader->get<float>("diffuse");
+  noteRayBytes(rays.byteCount());
   return rays;
+}
+
+void BlockStore::noteRayBytes(uint64_t bytes) {
+  for (uint64_t most = mostRayBytes_; bytes > most;)
+    if (mostRayBytes_.compare_exchange_weak(most, bytes)) break;
 }
 
 void BlockStore::putRays(size_t block, BlockRays rays) {
   const uint64_t bytes = rays.byteCount();
-  for (uint64_t most = mostRayBytes_; bytes > most;)
-    if (mostRayBytes_.compare_exchange_weak(most, bytes)) break;
+  noteRayBytes(bytes);
   if (!folder_) {
-    rays.hits.shrink_to_fit();  // grown without being known beforehand
+    // Grown without being known beforehand.
+    rays.hits.shrink_to_fit(), rays.blocked.shrink_to_fit(), rays.slices.shrink_to_fit();
     rayBytes_ += bytes;
     inMemory_[block] = std::move(rays);
     return;

@@ -23,7 +23,7 @@ class BlockStore {
   std::optional<BlockPass> find(size_t pass, size_t block, size_t rows, size_t diffuse);
   void put(size_t pass, size_t block, const BlockPass& made);
   // From memory, or from the folder into *read.
-  const BlockRays& rays(size_t block, BlockRays* read) const;
+  const BlockRays& rays(size_t block, BlockRays* read);
   void putRays(size_t block, BlockRays rays);
 
   uint64_t rayBytes() const { return rayBytes_; }          // in memory, of all blocks
@@ -32,6 +32,8 @@ class BlockStore {
   void finish();                                           // nothing is needed any more
 
  private:
+  void noteRayBytes(uint64_t bytes);
+
   const int classCount_;
   std::optional<WorkFolder> folder_;
   size_t columns_ = 0;

@@ -34,6 +34,7 @@ class BurialTest {
       }
     return 2 * behind > hit;
   }
+  uint64_t rays() const { return tracer_.rays(); }
 
  private:
   bool isBehind(const RayHit& hit, Vec3f d) const {
@@ -56,13 +57,18 @@ class BurialTest {
 
 std::vector<uint8_t> buriedVertices(const Tracer& tracer, const TransferMesh& mesh,
                                     const relight::VertexFaces& faces,
-                                    std::span<const uint8_t> bothSides) {
+                                    std::span<const uint8_t> bothSides, Context& context) {
   const GeodesicGrid grid(kLevel);
   std::vector<uint8_t> out(mesh.vertices.size());
   parallelRanges(out.size(), 256, [&](size_t begin, size_t end) {
+    if (context.cancelled()) return;
     BurialTest test(tracer, mesh, grid, bothSides);
-    for (size_t v = begin; v < end; ++v) out[v] = test.isBuried(faces.at(v)) ? 1 : 0;
+    uint64_t buried = 0;
+    for (size_t v = begin; v < end; ++v) buried += out[v] = test.isBuried(faces.at(v)) ? 1 : 0;
+    context.statistics.addCount("transfer_rays", test.rays());
+    context.statistics.addCount("vertices_buried", buried);
   });
+  if (context.cancelled()) throw Cancelled{};
   return out;
 }
 

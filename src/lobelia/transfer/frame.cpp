@@ -50,6 +50,7 @@ struct TransferRenderer::Impl {
   std::optional<PrefilteredLight> light;
   std::optional<Irradiance> irradiance;
   relight::TilePool<FrameTile> tiles;
+  uint64_t frame = 0;  // the last one's number
 };
 
 TransferRenderer::TransferRenderer(const Tracer& tracer, const TransferData& data)
@@ -81,7 +82,7 @@ void TransferRenderer::render(const TransferFrameSettings& settings, const Camer
   const EyeDirection eye(camera);
   const FrameInput input{
       impl_->tracer, *impl_->emitters, impl_->data, impl_->tables, impl_->lookup, light,
-      eye,           camera,           settings,    context.seed};
+      eye,           camera,           settings,    context.seed,  ++impl_->frame};
   const TileCounts counts = impl_->tiles.renderAll(
       relight::tileAreas(film), context, [&](FrameTile& tile, const relight::TileArea& area) {
         return tile.render(input, area, film);

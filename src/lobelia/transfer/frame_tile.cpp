@@ -12,7 +12,7 @@ using relight::kTileSize;
 using relight::PixelPlace;
 using relight::TilePixel;
 
-// Vertices beyond which a tile forgets them between samples; a sample adds at most three for each
+// Vertices beyond which they are forgotten between samples; a sample adds at most three for each
 // pixel.
 constexpr size_t kMostVertices = 16384;
 
@@ -121,7 +121,9 @@ TileCounts FrameTile::render(const FrameInput& input, const relight::TileArea& a
   const FlushDenormals flush;
   TileCounts counts;
   sums_.assign(kTileSize * kTileSize, Rgb{});
-  vertices_.begin(input.lookup, input.data, input.light, input.eye);
+  if (frame_ != input.frame) vertices_.begin(input.lookup, input.data, input.light, input.eye);
+  frame_ = input.frame;
+  const uint64_t before = vertices_.merged, lookups = vertices_.lightLookups;
   lightLookups_ = 0;
   for (int sample = 0; sample < input.settings.spp; ++sample) {
     const int64_t start = nanosecondsNow();
@@ -143,8 +145,8 @@ TileCounts FrameTile::render(const FrameInput& input, const relight::TileArea& a
     counts.firstBad = static_cast<uint32_t>((area.y0 + pixel / kTileSize) * film.width + area.x0 +
                                             pixel % kTileSize);
   }
-  counts.vertices = vertices_.merged;
-  counts.lightLookups = lightLookups_ + vertices_.lightLookups;
+  counts.vertices = vertices_.merged - before;
+  counts.lightLookups = lightLookups_ + vertices_.lightLookups - lookups;
   relight::writeTile(sums_, 1 / static_cast<float>(input.settings.spp), false, area, &film);
   return counts;
 }

@@ -1,5 +1,5 @@
 // One tile of a frame (frame.h): its hits, its vertices, its pixels. For one thread; keeps its
-// memory from tile to tile.
+// memory from tile to tile, and what it knows of vertices, which depends on the frame alone.
 #pragma once
 
 #include "lobelia/relight/tile_rays.h"
@@ -19,6 +19,7 @@ struct FrameInput {
   const Camera& camera;
   const TransferFrameSettings& settings;
   uint64_t seed = 0;
+  uint64_t frame = 0;  // another for every frame of a renderer, from 1
 };
 
 struct TileCounts {
@@ -42,6 +43,7 @@ class FrameTile {
 
   std::vector<relight::TilePixel> pixels_;
   std::vector<Rgb> sums_;
+  uint64_t frame_ = 0;  // of vertices_
   FrameVertices vertices_;
   uint64_t lightLookups_ = 0;
 };

@@ -1,5 +1,5 @@
-// The vertices around the pixels of a tile with their slices towards the eye and their diffuse
-// light. For one thread.
+// The vertices around the pixels of tiles of a frame with their slices towards the eye and their
+// diffuse light. For one thread.
 #pragma once
 
 #include "lobelia/path/direction_rows.h"

@@ -4,7 +4,8 @@
 // Deviations from the paper:
 //  - Slices share rays (vertex_rays.h) and weigh them by the BRDF itself, cosine included, instead
 //    of by samples of its vMF fit; sums are divided by the sum of all weights, so that energy is
-//    exact whatever the grid: what arrives along all rays is shared out, none is made.
+//    exact whatever the grid: what arrives along all rays is shared out, none is made. Bounces of
+//    broad lobes gather rays in cells (ray_cells.h), over the sum of weights of cells.
 //  - [eq. 9]: visible light counts; its V is 1 where something is in the way (methods.md 3.2).
 //  - [eqs. 10, 11] gather (alpha, alpha r), whose sums are exact in energy and mean direction.
 //  - What diffuse lobes receive is kept once for each side of a vertex, not for each slice

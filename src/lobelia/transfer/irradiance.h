@@ -1,7 +1,7 @@
 // What diffuse surfaces receive where nothing is in the way. Eight lobes for the octants of the
 // sphere tell well how what is in the way shadows a diffuse surface, but not what it receives: two
 // lobes that lie side by side leave a seam, and all of them leak below the horizon, which together
-// is up to 15 % of the light of a hall with bright windows. So octants give a ratio alone.
+// is much of the light of a hall with bright windows. So octants give a ratio alone.
 #pragma once
 
 #include "lobelia/transfer/prefiltered_light.h"

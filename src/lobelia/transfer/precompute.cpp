@@ -18,6 +18,7 @@
 namespace lobelia::transfer {
 namespace {
 
+constexpr size_t kPilots = 16;  // blocks of a pass that are made before all others
 constexpr size_t kBlock = 256;  // vertices
 
 // Grids of rays, as fine as a lobe needs: its solid angle, about 4 pi / kappa, has 38 rays or more,
@@ -136,6 +137,10 @@ class Precomputation {
                        anyDiffuse_ ? sides.front(last) - sides.front(first) : 0);
   }
 
+  static size_t blocksTogether() {
+    return std::max<size_t>(8 * static_cast<size_t>(threadCount()), 1);
+  }
+
   // Blocks one after the other, as many at a time as there are threads; what they give is taken in
   // their order. A few from all over the mesh are made before all others: they tell whether there
   // is memory for the rest. make(block) -> BlockPass.
@@ -143,7 +148,7 @@ class Precomputation {
   void forBlocks(const char* stage, const Make& make) {
     addPass();
     std::atomic<size_t> done{0};
-    const size_t together = std::max<size_t>(8 * static_cast<size_t>(threadCount()), 1);
+    const size_t together = blocksTogether();
     const auto madeAt = [&](const auto& blockOf, size_t count) {
       std::vector<BlockPass> made(count);
       parallelFor(count, 1, [&](size_t i) {
@@ -152,10 +157,12 @@ class Precomputation {
         context_.progress(stage, static_cast<double>(++done) / static_cast<double>(blocks_));
       });
       if (context_.cancelled()) throw Cancelled{};
+      for (const BlockPass& block : made)
+        mostBlockBytes_ = std::max<uint64_t>(mostBlockBytes_, block.byteCount());
       return made;
     };
     const MemoryUse before = memoryUse();
-    const size_t pilots = blocks_ > 2 * together ? together : 0;
+    const size_t pilots = blocks_ > 2 * kPilots ? kPilots : 0;
     const auto pilotAt = [&](size_t i) { return i * blocks_ / pilots; };
     std::vector<BlockPass> pilot = madeAt(pilotAt, pilots);
     if (pilots > 0) requireMemory(stage, before, pilot, pilots);
@@ -204,23 +211,27 @@ class Precomputation {
     const size_t vertices = data_.mesh.vertices.size(), triangles = mesh.triangles().size();
     return vertices * (sizeof(Vec3f) + sizeof(TransferVertex) + sizeof(uint8_t)) +
            triangles * (sizeof(relight::SampleTriangle) + sizeof(uint32_t)) +
-           (faces ? triangles * 3 * sizeof(relight::FacePlace) : vertices * sizeof(LobeMoment));
+           (faces ? triangles * 3 * sizeof(relight::FacePlace)
+                  : data_.diffuseSides.front(vertices) * sizeof(LobeMoment));
   }
 
   MemoryUse memoryUse() const {
     return {meshBytes(data_.passes.size() == 1), data_.byteCount(), store_.rayBytes(),
             // Rays of a block are there as they are, packed, and on their way there.
-            3 * static_cast<uint64_t>(threadCount()) * store_.mostRayBytes()};
+            3 * static_cast<uint64_t>(threadCount()) * store_.mostRayBytes() +
+                blocksTogether() * mostBlockBytes_};
   }
 
   // Rows without anything in them and diffuse lobes, of passes to come.
   uint64_t leastOfLaterPasses() const {
     const size_t words = (directions_.count() + 63) / 64;
     const size_t row = words * (sizeof(uint64_t) + sizeof(uint16_t)) + sizeof(uint64_t);
-    const size_t vertex = row * static_cast<size_t>(settings_.classCount + 1) +
-                          (anyDiffuse_ ? sizeof(DiffuseLobes) : 0);
+    const size_t vertices = data_.mesh.vertices.size();
+    const size_t rows = row * static_cast<size_t>(settings_.classCount + 1) * vertices;
+    const size_t diffuse =
+        anyDiffuse_ ? sizeof(DiffuseLobes) * data_.diffuseSides.front(vertices) : 0;
     const size_t passes = static_cast<size_t>(settings_.bounces) + 1 - data_.passes.size();
-    return passes * vertex * data_.mesh.vertices.size();
+    return passes * (rows + diffuse);
   }
 
   // before: when the stage began. waiting: blocks that are made, not taken. done: blocks that the
@@ -244,7 +255,7 @@ class Precomputation {
                                      relight::bothSidesOf(tracer_.scene()));
     input.faces = &faces;
     data_.mesh.buried =
-        buriedVertices(tracer_, data_.mesh, faces, relight::bothSidesOf(tracer_.scene()));
+        buriedVertices(tracer_, data_.mesh, faces, relight::bothSidesOf(tracer_.scene()), context_);
     BlockCounts counts;
     std::mutex mutex;
     forBlocks("rays and direct light", [&](size_t b) {
@@ -327,6 +338,7 @@ class Precomputation {
   std::vector<uint8_t> raysOf_;       // by vertex
   bool anyDiffuse_ = false;
   size_t blocks_ = 0;
+  uint64_t mostBlockBytes_ = 0;  // of a block of a pass, before it is taken
 };
 
 }  // namespace

@@ -141,10 +141,4 @@ Rgb PrefilteredLight::lookUpAt(Vec3f axis, float level) const {
   return {sum[0], sum[1], sum[2]};
 }
 
-size_t PrefilteredLight::byteCount() const {
-  size_t bytes = 0;
-  for (const Level& level : levels_) bytes += level.texels.size() * sizeof(Texel);
-  return bytes;
-}
-
 }  // namespace lobelia::transfer

@@ -26,7 +26,6 @@ class PrefilteredLight {
   float sharpest() const { return levels_[0].kappa; }  // kappa of level 0
   size_t levelCount() const { return levels_.size(); }
   float kappaOf(size_t level) const { return levels_[level].kappa; }
-  size_t byteCount() const;
 
  private:
   // Alpha is not used: registers of four.

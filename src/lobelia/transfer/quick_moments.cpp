@@ -20,7 +20,6 @@ namespace {
 
 constexpr uint32_t kTablePoints = 1024, kRatioPoints = 64, kAnisotropicPoints = 512,
                    kInsidePoints = 1024;
-constexpr float kLeastAlpha = 1.f / 128;
 
 // What the mean direction has of the mirror direction and of the normal.
 using Grid = AlbedoGrid<2>;

@@ -3,8 +3,8 @@
 // What is seen of infinity needs all rays, because masks have sharp edges. What arrives over other
 // surfaces is smooth but where one ends before another, so that lobes that are broad beside the
 // coarser grid's spacing need it no finer: a direction between two others counts half for each, and
-// where all three meet one instance, what arrives along it is taken for the mean of both. That is a
-// quarter of the sums, and little more of the lookups. [P002 section 5.2 has 144 rays for each
+// where all three meet one instance in places about in a row, what arrives along it is taken for the
+// mean of both. That is a quarter of the sums, and fewer lookups. [P002 section 5.2 has 144 rays for each
 // slice, whatever the lobe.]
 #pragma once
 

@@ -12,9 +12,6 @@
 namespace lobelia::transfer {
 namespace {
 
-constexpr float kLeastAlpha = 1.f / 128;
-static_assert(1 / (2 * kLeastAlpha * kLeastAlpha) == kMostKappa);
-
 template <class Taken>
 Bsdf withLobes(const Bsdf& bsdf, const Taken& taken) {
   Bsdf part = bsdf;

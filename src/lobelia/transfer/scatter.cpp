@@ -17,6 +17,7 @@
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/relight/visibility_data.h"
+#include "lobelia/transfer/buried_vertices.h"
 #include "lobelia/transfer/gather_block.h"
 #include "lobelia/transfer/sample_lobe.h"
 #include "lobelia/transfer/scatter_paths.h"
@@ -203,12 +204,9 @@ void append(MadeBlock block, TransferData* data) {
   for (size_t j = 0; j < block.passes.size(); ++j) {
     TransferPass& pass = data->passes[j];
     const BlockPass& made = block.passes[j];
-    pass.glossy.resize(made.glossy.size(), SliceRows(made.glossy[0].columnCount()));
     for (size_t c = 0; c < made.glossy.size(); ++c) pass.glossy[c].append(made.glossy[c]);
     pass.diffuse.insert(pass.diffuse.end(), made.diffuse.begin(), made.diffuse.end());
   }
-  if (data->reflection.rowCount() == 0)
-    data->reflection = SliceRows(block.passes[0].reflection.columnCount());
   data->reflection.append(block.passes[0].reflection);
 }
 
@@ -253,10 +251,18 @@ TransferData scatterTransfer(const Tracer& tracer, TransferMesh mesh,
   data.passes.resize(static_cast<size_t>(settings.bounces) + 1);
   const relight::VertexFaces faces(scene, data.mesh.mesh, relight::leafTriangles(data.mesh.mesh),
                                    relight::bothSidesOf(scene));
+  if (data.mesh.buried.empty())
+    data.mesh.buried =
+        buriedVertices(tracer, data.mesh, faces, relight::bothSidesOf(scene), context);
   const DiffuseVertices diffuse = findDiffuse(scene, data.mesh.vertices);
   data.diffuseSides = DiffuseSides(data.mesh.vertices.size(), diffuse.backs);
   const ReflectionTables tables(scene);
   const GeodesicGrid directions(settings.directionLevel);
+  // Of a scene without surfaces, too.
+  for (size_t j = 0; j < data.passes.size(); ++j)
+    data.passes[j].glossy.assign(j == 0 ? 1 : static_cast<size_t>(settings.classCount) + 1,
+                                 SliceRows(directions.count()));
+  data.reflection = SliceRows(directions.count());
   const ScatterInput input{
       tracer,       data.mesh,          faces,
       tables,       directions,         data.diffuseSides,

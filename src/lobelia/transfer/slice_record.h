@@ -28,6 +28,9 @@ struct SliceRecord {
 static_assert(sizeof(SliceRecord) == 8);
 
 inline constexpr float kMostKappa = 8192;
+// Roughness of Beckmann's microfacets that reflect such a lobe: kappa is 1 / (2 alpha^2).
+inline constexpr float kLeastAlpha = 1.f / 128;
+static_assert(1 / (2 * kLeastAlpha * kLeastAlpha) == kMostKappa);
 
 SliceRecord pack(const TransferLobe& lobe);
 TransferLobe unpack(SliceRecord record);

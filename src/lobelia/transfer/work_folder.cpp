@@ -13,7 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kSuffix = ".block";
 constexpr const char* kKind = "transfer-block";
-constexpr uint32_t kVersion = 2;             // 1: diffuse light in front alone
+// To be raised whenever the same settings give other blocks. 1: diffuse light in front alone; 2:
+// weights of all rays where bounces now gather in cells.
+constexpr uint32_t kVersion = 3;
 constexpr const char* kParents = "parents";  // block of how many folders above were made
 
 [[noreturn]] void refuse(const std::string& file) {

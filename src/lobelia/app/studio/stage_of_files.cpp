@@ -4,7 +4,7 @@
 
 #include "lobelia/io/design.h"
 #include "lobelia/store/store.h"
-#include "lobelia/transfer/transfer_summary.h"
+#include "lobelia/transfer/transfer_data.h"
 
 namespace lobelia::app {
 namespace {
@@ -20,8 +20,7 @@ void requireMaterialsOf(const std::vector<std::string>& data, const SceneOptions
   const uint64_t hash = transfer::transferHash(before);
   const std::vector<std::string> changed = io::changedMaterials(before.materials, materials);
   for (const std::string& file : data) {
-    if (store::kindOf(file) != transfer::kTransferKind ||
-        transfer::summaryOf(file).sceneHash != hash)
+    if (store::kindOf(file) != transfer::kTransferKind || store::sceneHashOf(file) != hash)
       continue;
     throw InputError(
         {options.design},
