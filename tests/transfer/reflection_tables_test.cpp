@@ -238,10 +238,14 @@ TEST(ReflectionTables, OfMaterialsThatAreAlikeEverywhere) {
   EXPECT_FALSE(tables.has(a));
   EXPECT_FALSE(tables.has(unused));
   EXPECT_FALSE(tables.has({}));
-  EXPECT_GE(tables.sharpest(), 74);  // .74 / alpha^2: the narrower lobe at the normal
-  EXPECT_LT(tables.sharpest(), 400);
+  EXPECT_GE(tables.sharpest(metal), 74);  // .74 / alpha^2: the narrower lobe at the normal
+  EXPECT_LT(tables.sharpest(metal), 400);
+  EXPECT_GT(tables.sharpest(a), 20) << "it has no table";
+  EXPECT_LT(tables.sharpest(a), 400);
+  EXPECT_EQ(tables.sharpest(unused), 0);
+  EXPECT_EQ(tables.sharpest({}), 0);
   for (Instance& instance : scene.instances) instance.material = {0};
-  EXPECT_EQ(ReflectionTables(scene).sharpest(), 0);
+  EXPECT_EQ(ReflectionTables(scene).sharpest({0}), 0) << "it is diffuse";
 }
 
 TEST(ReflectionTables, OneSidedMaterialsReflectInFrontAlone) {

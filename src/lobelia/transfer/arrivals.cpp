@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "lobelia/transfer/lobe_moments.h"
+
 namespace lobelia::transfer {
 namespace {
 
@@ -134,9 +136,14 @@ Incoming Arrivals::alongRay(size_t ray) {
   const Vec3f wo = -sphere_->grid.directions()[ray];
   const Side side = input_.lookup.sideOf(place, wo);
   const Reflection own = ownOf(material, around, place, wo);
-  if (luminance(own.glossy) > 0) {
+  const bool tabulated = input_.tables.has(material);
+  if (luminance(own.glossy) > 0 || !tabulated) {
     std::array<LobeMoment, kMostClasses + 1> byClass{};
-    const PlaceView view = input_.lookup.view(around, own, wo, side, sphere_->back[ray]);
+    PlaceView view = input_.lookup.view(around, own, wo, side, sphere_->back[ray]);
+    if (!tabulated) {
+      const TransferLobe lobe = input_.lookup.ownLobe(view);
+      view.own.glossy = lobe.share, view.own.r = lobe.r;
+    }
     const auto& glossy = input_.data.passes[before_].glossy;
     input_.lookup.glossy(view, before_, {byClass.data(), glossy.size()});
     for (size_t c = 0; c < glossy.size(); ++c)
@@ -164,7 +171,8 @@ LobeMoment Arrivals::diffuseOf(const relight::SurroundingVertices& around, Side 
   return {alpha, all.first * (luminance(alpha) / energy)};
 }
 
-// Between the vertices: tables by the mean of normals; else of the surface itself.
+// Between the vertices: tables by the mean of normals; else what diffuse lobes reflect at the place
+// itself, without the glossy ones (SliceLookup::ownLobe()).
 Reflection Arrivals::ownOf(MaterialHandle material, const relight::SurroundingVertices& around,
                            const Hit& hit, Vec3f wo) const {
   Reflection own;
@@ -179,7 +187,8 @@ Reflection Arrivals::ownOf(MaterialHandle material, const relight::SurroundingVe
   }
   const SurfacePoint at = surfacePoint(scene_, hit);
   wo = aboveHorizon(wo, at);
-  return reflectionOf(makeBsdf(scene_, at, wo, 0), wo);
+  own.diffuse = diffuseAlbedo(makeBsdf(scene_, at, wo, 0), wo);
+  return own;
 }
 
 }  // namespace lobelia::transfer

@@ -62,8 +62,8 @@ class Vertex {
   bool reflection(Vec3f wo, Reflection* out) const {
     const Vec3f n = input_.data.mesh.vertices[index_].n;
     if (input_.tables.has(material())) return input_.tables.summary(material(), n, wo, out);
-    *out = reflectionOf(bsdf(wo), wo);
-    return out->count > 0 || out->diffuse != Rgb{};
+    *out = summaryOf(bsdf(wo), wo);
+    return luminance(out->glossy) > 0 || out->diffuse != Rgb{};
   }
   Vec3f normal() const { return input_.data.mesh.vertices[index_].n; }
   // f(wo) for the sides whose diffuse light is kept; wo: their normal.

@@ -34,6 +34,12 @@ void sortByWidth(Reflection* out) {
       std::swap(out->lobes[j - 1], out->lobes[j]);
 }
 
+void setSum(const LobeMoments& all, Reflection* out) {
+  out->glossy = all.albedo;
+  const float energy = luminance(all.albedo);
+  if (energy > 0) out->r = all.first / energy;
+}
+
 // Shares the places for lobes out among the Bsdf's; the last place is for all that are left.
 void addGlossy(const Bsdf& glossy, Vec3f wo, Reflection* out) {
   const ActiveLobes active = activeLobes(glossy, wo);
@@ -55,20 +61,35 @@ void addGlossy(const Bsdf& glossy, Vec3f wo, Reflection* out) {
   if (luminance(rest.albedo) > 0)
     out->lobes[static_cast<size_t>(out->count++)] = reflectedLobe(rest);
   sortByWidth(out);
-  out->glossy = all.albedo;
-  const float energy = luminance(all.albedo);
-  if (energy > 0) out->r = all.first / energy;
+  setSum(all, out);
 }
 
-}  // namespace
-
-Reflection reflectionOf(const Bsdf& bsdf, Vec3f wo) {
+// All but what its glossy lobes give.
+Reflection withoutGlossy(const Bsdf& bsdf, Vec3f wo) {
   Reflection out;
   const Vec3f n = bsdf.frames[0].n;
   out.n = dot(n, wo) < 0 ? -n : n;
   out.mirror = normalize(out.n * (2 * dot(out.n, wo)) - wo);
   out.diffuse = diffuseAlbedo(bsdf, wo);
+  return out;
+}
+
+}  // namespace
+
+Reflection reflectionOf(const Bsdf& bsdf, Vec3f wo) {
+  Reflection out = withoutGlossy(bsdf, wo);
   addGlossy(glossyPart(bsdf), wo, &out);
+  return out;
+}
+
+Reflection summaryOf(const Bsdf& bsdf, Vec3f wo) {
+  Reflection out = withoutGlossy(bsdf, wo);
+  const Bsdf glossy = glossyPart(bsdf);
+  const ActiveLobes active = activeLobes(glossy, wo);
+  LobeMoments all;
+  for (int i = 0; i < active.count; ++i)
+    all.add(quickMoments(glossy, *active.lobes[static_cast<size_t>(i)], wo));
+  setSum(all, &out);
   return out;
 }
 

@@ -34,6 +34,8 @@ struct Reflection {
 Bsdf diffusePart(const Bsdf& bsdf);
 Bsdf glossyPart(const Bsdf& bsdf);
 Reflection reflectionOf(const Bsdf& bsdf, Vec3f wo);
+// The same without lobes, for sums of many: a fraction of the time.
+Reflection summaryOf(const Bsdf& bsdf, Vec3f wo);
 
 // Tables of a scene's materials. What is looked up is within .3 % of a Bsdf's albedos and .1 degree
 // of its mean directions; lobes are closer to it than those of reflectionOf() (reflection_table.h).
@@ -49,11 +51,9 @@ class ReflectionTables {
   bool at(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const;
   // The same without lobes, for sums of many.
   bool summary(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const;
-  // kappa of the sharpest glossy lobe of any material that is used, for directions of wo up to 45
-  // degrees from the normal; of textured materials where some triangles have their middles. 0:
-  // there is none.
-  float sharpest() const;
-  float sharpest(MaterialHandle material) const;  // of one; that of all where it has no table
+  // kappa of a material's sharpest glossy lobe, for directions of wo up to 45 degrees from the
+  // normal; of one without table where some triangles have their middles. 0: there is none.
+  float sharpest(MaterialHandle material) const;
 
  private:
   struct Impl;

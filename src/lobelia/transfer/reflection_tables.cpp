@@ -61,7 +61,7 @@ float sharpestOf(const Scene& scene, uint32_t instance) {
 
 struct ReflectionTables::Impl {
   std::vector<std::unique_ptr<Sides>> tables;  // by material
-  float sharpest = 0;
+  std::vector<float> sharpest;                 // by material
 };
 
 ReflectionTables::ReflectionTables(const Scene& scene) : impl_(std::make_unique<Impl>()) {
@@ -81,10 +81,14 @@ ReflectionTables::ReflectionTables(const Scene& scene) : impl_(std::make_unique<
     const MaterialHandle material = scene.instances[i].material;
     if (material.valid() && !has(material)) found[i] = sharpestOf(scene, static_cast<uint32_t>(i));
   });
-  for (const auto& sides : impl_->tables)
-    if (sides)
-      for (const ReflectionTable& table : *sides) found.push_back(table.sharpest());
-  for (const float one : found) impl_->sharpest = std::max(impl_->sharpest, one);
+  impl_->sharpest.resize(scene.materials.size(), 0);
+  for (size_t i = 0; i < found.size(); ++i)
+    if (const MaterialHandle m = scene.instances[i].material; m.valid())
+      impl_->sharpest[m.index] = std::max(impl_->sharpest[m.index], found[i]);
+  for (size_t m = 0; m < impl_->tables.size(); ++m)
+    if (impl_->tables[m])
+      for (const ReflectionTable& table : *impl_->tables[m])
+        impl_->sharpest[m] = std::max(impl_->sharpest[m], table.sharpest());
 }
 
 ReflectionTables::~ReflectionTables() = default;
@@ -109,14 +113,8 @@ bool ReflectionTables::summary(MaterialHandle material, Vec3f n, Vec3f wo, Refle
   return true;
 }
 
-float ReflectionTables::sharpest() const { return impl_->sharpest; }
-
 float ReflectionTables::sharpest(MaterialHandle material) const {
-  if (!has(material)) return sharpest();
-  float most = 0;
-  for (const ReflectionTable& table : *impl_->tables[material.index])
-    most = std::max(most, table.sharpest());
-  return most;
+  return material.valid() ? impl_->sharpest[material.index] : 0.f;
 }
 
 }  // namespace lobelia::transfer

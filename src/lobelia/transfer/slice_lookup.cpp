@@ -83,6 +83,10 @@ Vec3f SliceLookup::ownResultant(const VertexView& view) const {
     const Vec3f n = data_.mesh.vertices[view.vertex].n;
     return tables_.summary(view.material, n, view.wo, &own) ? own.r : Vec3f{};
   }
+  return ownLobe(view).r;
+}
+
+TransferLobe SliceLookup::ownLobe(const VertexView& view) const {
   LobeSum sum;
   for (size_t k = 0; k < 3; ++k) {
     const SliceRecord* const record = data_.reflection.find(view.vertex, view.place.index[k]);
@@ -91,7 +95,15 @@ Vec3f SliceLookup::ownResultant(const VertexView& view) const {
     lobe.r = turned(lobe.r, mirrored(grid_.directions()[view.place.index[k]], view.n), view.mirror);
     sum.add(view.place.weight[k], lobe, view.mirror);
   }
-  return sum.lobe().r;
+  return sum.lobe();
+}
+
+TransferLobe SliceLookup::ownLobe(const PlaceView& view) const {
+  LobeSum sum;
+  for (size_t v = 0; v < 3; ++v)
+    if (view.weight[v] > 0)
+      sum.add(view.weight[v], ownLobe(view.vertices[v]), view.vertices[v].mirror);
+  return sum.lobe();
 }
 
 VisiblePart SliceLookup::visible(const VertexView& view) const {

@@ -61,6 +61,10 @@ class SliceLookup {
   // Mean r of the vertex's glossy lobes where nothing is in the way; 0 where it has none.
   Vec3f ownResultant(const VertexView& view) const;
 
+  // What a place's glossy lobes reflect where nothing is in the way, between what is known of its
+  // vertices: for materials that have no table, and sums of many.
+  TransferLobe ownLobe(const PlaceView& view) const;
+
   // At a place: what its glossy lobes reflect of a pass, by class (passes[pass].glossy.size()).
   void glossy(const PlaceView& view, size_t pass, std::span<LobeMoment> byClass) const;
   // What its diffuse lobes of this albedo reflect of a pass, by the octant the light comes from;
@@ -75,7 +79,8 @@ class SliceLookup {
   const SliceRecord* find(const VertexView& view, size_t pass, size_t lobeClass, size_t k) const {
     return data_.passes[pass].glossy[lobeClass].find(view.vertex, view.place.index[k]);
   }
-  // The same towards corner k of the view's triangle of directions.
+  TransferLobe ownLobe(const VertexView& view) const;  // of a material without table
+  // ownResultant() towards corner k of the view's triangle of directions.
   Vec3f ownResultant(const VertexView& view, size_t k) const;
 
   const Scene& scene_;
