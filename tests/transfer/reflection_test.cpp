@@ -6,6 +6,7 @@
 #include "lobelia/base/random.h"
 #include "lobelia/base/sampling.h"
 #include "lobelia/bsdf/albedo.h"
+#include "lobelia/lobes/spherical_gaussian.h"
 #include "lobelia/transfer/slice_record.h"
 
 namespace lobelia::transfer {
@@ -87,6 +88,57 @@ TEST(Reflection, ManyLobesShareFourPlaces) {
   Rgb energies{};
   for (int i = 0; i < 7; ++i) energies += lobeAlbedo(bsdf.lobes[i], 0.7f);
   EXPECT_LT(length(sum - energies), 0.002f * length(sum));
+}
+
+// Along the rougher tangent, and none of the energy or of the mean direction is lost.
+TEST(Reflection, StreaksAreRowsOfLobes) {
+  for (const auto& [alphaX, alphaY] : {std::pair(0.06f, 0.3f), std::pair(0.3f, 0.06f)}) {
+    const Bsdf bsdf =
+        test::single(test::microfacets(Distribution::ggx, alphaX, alphaY, Fresnel::conductor));
+    const Reflection r = reflectionOf(bsdf, test::directionAt(0.9f, 0.8f));
+    ASSERT_EQ(r.count, Reflection::kMostLobes);
+    Rgb sum{};
+    Vec3f first{}, spread{};
+    for (const ReflectedLobe& lobe : r.lobes) {
+      const float energy = luminance(lobe.alpha), size = lobes::meanResultant(lobe.kappa);
+      sum += lobe.alpha, first += lobe.axis * (energy * size);
+      for (int c = 0; c < 2; ++c) spread[c] += energy * sqr(lobe.axis[c] - r.r[c] / length(r.r));
+    }
+    EXPECT_LT(length(sum - r.glossy), 1e-4f * length(sum));
+    EXPECT_LT(length(first / luminance(sum) - r.r), 0.02f);
+    EXPECT_GT(alphaX < alphaY ? spread.y : spread.x, 6 * (alphaX < alphaY ? spread.x : spread.y));
+  }
+}
+
+// Of the lobes, at directions around the mirror's, over the albedo.
+std::array<float, 4> densities(const Reflection& r) {
+  std::array<float, 4> out{};
+  for (size_t k = 0; k < out.size(); ++k) {
+    const float angle = 0.25f * static_cast<float>(k) - 0.25f;
+    const Vec3f d =
+        r.mirror * std::cos(angle) + normalize(cross(r.mirror, {0, 1, 0})) * std::sin(angle);
+    for (const ReflectedLobe& lobe : std::span(r.lobes).first(static_cast<size_t>(r.count)))
+      out[k] += luminance(lobe.alpha) / luminance(r.glossy) * lobe.kappa /
+                (kTwoPi * -std::expm1(-2 * lobe.kappa)) *
+                std::exp(lobe.kappa * (dot(lobe.axis, d) - 1));
+  }
+  return out;
+}
+
+// Where the horizon begins to cut lobes off no step is seen.
+TEST(Reflection, LobesMoveSmoothlyWithTheElevation) {
+  for (const float alpha : {0.2f, 0.4f, 0.7f}) {
+    const Bsdf bsdf =
+        test::single(test::microfacets(Distribution::ggx, alpha, alpha, Fresnel::conductor));
+    std::array<float, 4> before = densities(reflectionOf(bsdf, test::directionAt(0.9f, 0.f)));
+    for (float cosine = 0.895f; cosine > 0.15f; cosine -= 0.005f) {
+      const auto now = densities(reflectionOf(bsdf, test::directionAt(cosine, 0.f)));
+      for (size_t k = 0; k < now.size(); ++k)
+        EXPECT_NEAR(now[k], before[k], 0.15f * *std::ranges::max_element(now))
+            << alpha << " " << cosine << " " << k;
+      before = now;
+    }
+  }
 }
 
 // A frame that leans away from the surface: points for the ratio to the flat lobe.

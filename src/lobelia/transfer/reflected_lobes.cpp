@@ -4,13 +4,17 @@
 // relative L1 error of .01 to .09 where the mirror direction and the exponent give .04 to .41
 // (methods.md 0.5). Microfacets have the shapes of bsdf/gaussian_shape.h: GGX two co-axial lobes,
 // others a row of up to three in the plane of incidence. Where the horizon cuts off much of a lobe
-// they are turned and widened to its first moment (GGX of 0.4 at 60 degrees: .42 instead of .66).
+// they are turned and widened to its first moment, little by little, for a step would be seen.
+// Anisotropic ones are a row across their streak: lobes of equal energy, by the slopes of half
+// vectors along the rougher tangent.
 // What a fit has below the horizon is light from there: it is not cut off.
 #include "lobelia/transfer/reflected_lobes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "lobelia/bsdf/gaussian_shape.h"
 #include "lobelia/bsdf/scalar_lobe.h"
@@ -27,15 +31,19 @@ int fewestFor(const Lobe& lobe) {
   return lobe.distribution == Distribution::gtr1 ? 3 : 2;
 }
 
-// Is so much of the lobe cut off that its shape has little to do with that of its micro-normals?
-// Half vectors that send light along the horizon are (90 degrees - theta) / 2 from the normal.
-bool reachesHorizon(const Lobe& lobe, float cosine) {
+// How much the horizon has to do with the lobe's shape: 0 where it is that of its micro-normals, 1
+// where so much is cut off that these say little. Half vectors that send light along the horizon
+// are (90 degrees - theta) / 2 from the normal.
+float cutByHorizon(const Lobe& lobe, float cosine) {
   const float alpha = std::sqrt(lobe.alphaX * lobe.alphaY);
-  return alpha * std::sqrt(1 - std::min(cosine * cosine, 1.f)) > 0.65f * cosine;
+  const float sine = std::sqrt(1 - std::min(cosine * cosine, 1.f));
+  const float t = std::clamp((alpha * sine / std::max(cosine, 1e-6f) - 0.45f) / 0.4f, 0.f, 1.f);
+  return t * t * (3 - 2 * t);
 }
 
-// Turns and widens (or narrows) lobes together, towards these moments.
-void moveTo(const LobeMoments& moments, std::span<ReflectedLobe> lobes) {
+// Turns and widens (or narrows) lobes together, towards these moments. part: 0 for nothing, 1 for
+// all of the way.
+void moveTo(const LobeMoments& moments, float part, std::span<ReflectedLobe> lobes) {
   Vec3f sum{};
   float energy = 0;
   for (const ReflectedLobe& lobe : lobes) {
@@ -48,9 +56,47 @@ void moveTo(const LobeMoments& moments, std::span<ReflectedLobe> lobes) {
   const float spread = 1 - size / energy;
   const float wantedSpread = 1 - wanted / luminance(moments.albedo);
   for (ReflectedLobe& lobe : lobes) {
-    lobe.axis = normalize(turned(lobe.axis, sum / size, moments.first / wanted));
-    lobe.kappa = std::min(lobe.kappa * spread / std::max(wantedSpread, 1 / kMostKappa), kMostKappa);
+    const Vec3f axis = turned(lobe.axis, sum / size, moments.first / wanted);
+    lobe.axis = normalize(lobe.axis * (1 - part) + axis * part);
+    const float wider = std::max(wantedSpread, 1 / kMostKappa) / spread;
+    lobe.kappa = std::min(lobe.kappa / (1 - part + wider * part), kMostKappa);
   }
+}
+
+// A row of lobes for a streak: as many of about the same energy as there is room for.
+int rowAcross(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, const LobeMoments& moments,
+              std::span<ReflectedLobe> lobes) {
+  constexpr uint32_t kPoints = 256;
+  thread_local std::vector<LobePoint> points;
+  thread_local std::vector<std::pair<float, uint32_t>> bySlope;
+  points.clear(), bySlope.clear();
+  quadraturePoints(bsdf, lobe, wo, kPoints, &points);
+  const ShadingFrame& frame = bsdf.frameOf(lobe);
+  float energy = 0;
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    const Vec3f h = frame.toLocal(points[i].w + wo);
+    bySlope.emplace_back((lobe.alphaX > lobe.alphaY ? h.x : h.y) / h.z, i);
+    energy += luminance(points[i].weight);
+  }
+  if (!(energy > 0)) return 0;
+  std::ranges::sort(bySlope);
+  std::array<LobeMoments, Reflection::kMostLobes> row;
+  float before = 0;
+  for (const auto& [slope, i] : bySlope) {
+    const float mass = luminance(points[i].weight);
+    const auto at =
+        static_cast<size_t>((before + 0.5f * mass) / energy * static_cast<float>(lobes.size()));
+    row[std::min(at, lobes.size() - 1)].add({points[i].weight, points[i].w * mass});
+    before += mass;
+  }
+  int count = 0;
+  for (const LobeMoments& part : std::span(row).first(lobes.size())) {
+    if (!(luminance(part.albedo) > 0)) continue;
+    ReflectedLobe& to = lobes[static_cast<size_t>(count++)];
+    to = reflectedLobe(part);
+    to.alpha = moments.albedo * (luminance(part.albedo) / energy);
+  }
+  return count;
 }
 
 }  // namespace
@@ -68,6 +114,7 @@ int reflectedLobes(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, const LobeMomen
     lobes[0] = reflectedLobe(moments);
     return 1;
   }
+  if (lobe.alphaX != lobe.alphaY) return rowAcross(bsdf, lobe, wo, moments, lobes);
   const ShadingFrame& frame = bsdf.frameOf(lobe);
   const Vec3f o = frame.toLocal(wo);
   const bool back = o.z < 0;
@@ -82,7 +129,8 @@ int reflectedLobes(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, const LobeMomen
                                      std::min(part.sharpness, kMostKappa),
                                      moments.albedo * (part.share / sum)};
   }
-  if (reachesHorizon(lobe, std::abs(o.z))) moveTo(moments, lobes.first(static_cast<size_t>(count)));
+  if (const float part = cutByHorizon(lobe, std::abs(o.z)); part > 0)
+    moveTo(moments, part, lobes.first(static_cast<size_t>(count)));
   return count;
 }
 
