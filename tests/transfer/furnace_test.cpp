@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "lobelia/base/random.h"
 #include "lobelia/transfer/precompute.h"
 #include "lobelia/transfer/slice_lookup.h"
 #include "relight/scenes.h"
+#include "transfer/follow_path.h"
 
 namespace lobelia::transfer {
 namespace {
@@ -54,22 +54,10 @@ using ByPass = std::array<double, kMostPasses>;
 // Energy of paths from a vertex towards the eye, by bounces before infinity.
 void follow(const Tracer& tracer, const TransferVertex& vertex, Vec3f wo, Rng& rng, double share,
             ByPass* sum) {
-  const Scene& scene = tracer.scene();
-  SurfacePoint at = surfacePoint(scene, vertex.hit());
-  Rgb weight(1.f);
-  for (double& pass : *sum) {
-    const Bsdf bsdf = makeBsdf(scene, at, wo, 0);
-    const float lobe = rng.next1D();
-    const auto drawn = sample(bsdf, wo, lobe, rng.next2D());
-    if (!drawn) return;
-    weight = weight * drawn->weight;
-    const auto hit = tracer.intersect({offsetOrigin(at, drawn->wi), drawn->wi});
-    if (!hit) {
-      pass += share * static_cast<double>(luminance(weight));
-      return;
-    }
-    at = surfacePoint(scene, *hit), wo = -drawn->wi;
-  }
+  test::followPath(tracer, surfacePoint(tracer.scene(), vertex.hit()), wo, Rgb(1), sum->size(), rng,
+                   [&](size_t bounce, Rgb weight, Vec3f) {
+                     (*sum)[bounce] += share * static_cast<double>(luminance(weight));
+                   });
 }
 
 double energy(const SliceLookup& lookup, const TransferData& data, const Reflection& own,

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "lobelia/base/parallel.h"
-#include "lobelia/base/random.h"
 #include "lobelia/transfer/slice_lookup.h"
 #include "relight/scenes.h"
+#include "transfer/follow_path.h"
 
 namespace lobelia::transfer {
 namespace {
@@ -47,25 +47,12 @@ struct Traced {
 Traced traced(const Tracer& tracer, const TransferVertex& vertex, Vec3f wo, int samples) {
   Traced out;
   Rng rng(5);
-  const Scene& scene = tracer.scene();
-  for (int s = 0; s < samples; ++s) {
-    SurfacePoint at = surfacePoint(scene, vertex.hit());
-    Vec3f towards = wo;
-    Rgb weight(1.f / static_cast<float>(samples));
-    for (size_t bounce = 0; bounce < 4; ++bounce) {
-      const Bsdf bsdf = makeBsdf(scene, at, towards, 0);
-      const float lobe = rng.next1D();
-      const auto drawn = sample(bsdf, towards, lobe, rng.next2D());
-      if (!drawn) break;
-      weight = weight * drawn->weight;
-      const auto hit = tracer.intersect({offsetOrigin(at, drawn->wi), drawn->wi});
-      if (!hit) {
-        out.alpha[bounce] += weight, out.first[bounce] += drawn->wi * luminance(weight);
-        break;
-      }
-      at = surfacePoint(scene, *hit), towards = -drawn->wi;
-    }
-  }
+  const Rgb share(1.f / static_cast<float>(samples));
+  for (int s = 0; s < samples; ++s)
+    test::followPath(tracer, surfacePoint(tracer.scene(), vertex.hit()), wo, share,
+                     out.alpha.size(), rng, [&](size_t bounce, Rgb weight, Vec3f wi) {
+                       out.alpha[bounce] += weight, out.first[bounce] += wi * luminance(weight);
+                     });
   return out;
 }
 

@@ -2,11 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "lobelia/base/parallel.h"
-#include "lobelia/base/random.h"
-#include "lobelia/bsdf/bsdf.h"
 #include "lobelia/transfer/frame.h"
 #include "lobelia/transfer/scatter.h"
 #include "support/run_program.h"
+#include "transfer/follow_path.h"
 #include "transfer/messages.h"
 #include "transfer/small_transfer.h"
 
@@ -138,20 +137,12 @@ TransferSettings sheetSettings() {
 }
 
 // What paths of up to three reflections bring along a ray from a sky of one.
-Rgb traced(const Tracer& tracer, Ray ray, Rng& rng) {
-  Rgb weight(1);
-  for (int reflections = 0; reflections <= 3; ++reflections) {
-    const auto hit = tracer.intersect(ray);
-    if (!hit) return reflections > 0 ? weight : Rgb{};
-    const SurfacePoint at = surfacePoint(tracer.scene(), *hit);
-    const Bsdf bsdf = makeBsdf(tracer.scene(), at, -ray.d, 0);
-    const float lobe = rng.next1D();
-    const auto drawn = sample(bsdf, -ray.d, lobe, rng.next2D());
-    if (!drawn) return {};
-    weight *= drawn->weight;
-    ray = Ray{offsetOrigin(at, drawn->wi), drawn->wi};
-  }
-  return {};
+Rgb traced(const Tracer& tracer, const Ray& ray, Rng& rng) {
+  Rgb sum{};
+  if (const auto hit = tracer.intersect(ray))
+    test::followPath(tracer, surfacePoint(tracer.scene(), *hit), -ray.d, Rgb(1), 3, rng,
+                     [&](size_t, Rgb weight, Vec3f) { sum = weight; });
+  return sum;
 }
 
 // Means over the pixels that show an instance: of a frame, and of paths.
