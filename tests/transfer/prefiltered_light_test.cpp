@@ -130,7 +130,8 @@ TEST(PrefilteredLight, SharperAndWiderLobesAreTheLastOnes) {
   const PrefilteredLight light(known);
   EXPECT_EQ(light.lookUp({0, 0, 1}, 1e9f), light.lookUp({0, 0, 1}, light.sharpest()));
   const Rgb widest = light.lookUp({0, 0, 1}, 0);
-  EXPECT_EQ(widest, light.lookUp({0, 0, 1}, light.kappaOf(light.levelCount() - 1)));
+  const Rgb last = light.lookUp({0, 0, 1}, light.kappaOf(light.levelCount() - 1));
+  EXPECT_NEAR(widest.x / last.x, 1, 1e-6f);
   EXPECT_NEAR(widest.x, 1 / (4 * kPi), 0.03f);
 }
 

@@ -55,6 +55,7 @@ LOBELIA_HD float sqrt(float a) { return ::sqrtf(a); }
 LOBELIA_HD float floor(float a) { return ::floorf(a); }
 LOBELIA_HD float exp(float a) { return ::expf(a); }
 LOBELIA_HD float log(float a) { return ::logf(a); }
+LOBELIA_HD float gather(const float* base, float index) { return base[static_cast<int>(index)]; }
 
 template <class F>
 struct V3 {

@@ -18,8 +18,8 @@ struct Hit {
 
 struct SurfacePoint {
   Vec3f p;
-  Vec3f ng;          // unit, outside (orientation of the mesh after flipNormals)
-  Frame frame;       // shading frame: n interpolated, s along dp/du
+  Vec3f ng;     // unit, outside (orientation of the mesh after flipNormals)
+  Frame frame;  // shading frame: n interpolated, s along dp/du
   Vec3f dpdu, dpdv;
   Vec2f uv;
   float t = 0;
@@ -27,10 +27,15 @@ struct SurfacePoint {
   MaterialHandle material;
   EmitterHandle emitter;
   TextureContext texture;
-  float error = 0;   // absolute position error to keep away from the surface by
+  float error = 0;  // absolute position error to keep away from the surface by
 };
 
 SurfacePoint surfacePoint(const Scene& scene, const Hit& hit);
+// Its normals alone, at a fraction of the price: ng, and the interpolated one.
+struct SurfaceNormals {
+  Vec3f ng{}, n{};  // unit
+};
+SurfaceNormals surfaceNormals(const Scene& scene, const Hit& hit);
 // Material to Bsdf at a point seen from wo; lobes classified by the specular limit (roughness).
 // Opacity is not a lobe: rays pass masks stochastically (trace/tracer.h).
 // light: the side of emission is not considered here.

@@ -96,16 +96,29 @@ Vec3f geometricNormal(const Triangle& tri) {
   return largest > 0 ? normalize(tri.cross / largest) : Vec3f{0, 0, 1};
 }
 
-}  // namespace
+// A hit's triangle in the world and its normals, before flipNormals.
+struct HitTriangle {
+  const Instance& instance;
+  const Mesh& mesh;
+  const Transform* transform;  // none where it is the identity
+  Vec3u v;
+  Triangle tri;
+  SurfaceNormals normals;
+};
 
-SurfacePoint surfacePoint(const Scene& scene, const Hit& hit) {
+// In place: copying a triangle takes as long as making it.
+HitTriangle hitTriangle(const Scene& scene, const Hit& hit) {
   const Instance& instance = scene.instances[hit.instance];
   const Mesh& mesh = scene[instance.mesh];
-  const Vec3u v = mesh.triangles[hit.triangle];
-  const Transform* const transform = instance.toWorld.to.isIdentity() ? nullptr : &instance.toWorld;
-  const float b1 = hit.b1, b2 = hit.b2, b0 = 1 - b1 - b2;
-
-  Triangle tri;
+  HitTriangle out{instance,
+                  mesh,
+                  instance.toWorld.to.isIdentity() ? nullptr : &instance.toWorld,
+                  mesh.triangles[hit.triangle],
+                  {},
+                  {}};
+  const Transform* const transform = out.transform;
+  const Vec3u v = out.v;
+  Triangle& tri = out.tri;
   for (int i = 0; i < 3; ++i) {
     tri.p[i] = mesh.positions[v[i]];
     if (transform) tri.p[i] = transform->point(tri.p[i]);
@@ -114,22 +127,42 @@ SurfacePoint surfacePoint(const Scene& scene, const Hit& hit) {
   tri.cross = cross(tri.e1, tri.e2);
   tri.area2 = length(tri.cross);
 
-  Vec3f ng = geometricNormal(tri);
+  Vec3f& ng = out.normals.ng;
+  ng = geometricNormal(tri);
   if (transform && transform->to.determinant3() < 0) ng = -ng;
-  const bool smooth = !mesh.normals.empty();
-  Vec3f ns = ng;
-  if (smooth) {
-    Vec3f n[3];
-    for (int i = 0; i < 3; ++i) {
-      n[i] = mesh.normals[v[i]];
-      if (transform) n[i] = normalize(transformNormal(*transform, n[i]));
-    }
-    if (dot(ng, n[0] + n[1] + n[2]) < 0) ng = -ng;
-    ns = ng;
-    const Vec3f sum = n[0] * b0 + n[1] * b1 + n[2] * b2;
-    const float len = length(sum);
-    if (len > 1e-6f && std::isfinite(len)) ns = sum / len;
+  out.normals.n = ng;
+  if (mesh.normals.empty()) return out;
+  Vec3f n[3];
+  for (int i = 0; i < 3; ++i) {
+    n[i] = mesh.normals[v[i]];
+    if (transform) n[i] = normalize(transformNormal(*transform, n[i]));
   }
+  if (dot(ng, n[0] + n[1] + n[2]) < 0) ng = -ng;
+  out.normals.n = ng;
+  const Vec3f sum = n[0] * (1 - hit.b1 - hit.b2) + n[1] * hit.b1 + n[2] * hit.b2;
+  const float len = length(sum);
+  if (len > 1e-6f && std::isfinite(len)) out.normals.n = sum / len;
+  return out;
+}
+
+}  // namespace
+
+SurfaceNormals surfaceNormals(const Scene& scene, const Hit& hit) {
+  const HitTriangle at = hitTriangle(scene, hit);
+  if (at.instance.flipNormals) return {-at.normals.ng, -at.normals.n};
+  return at.normals;
+}
+
+SurfacePoint surfacePoint(const Scene& scene, const Hit& hit) {
+  const HitTriangle at = hitTriangle(scene, hit);
+  const Instance& instance = at.instance;
+  const Mesh& mesh = at.mesh;
+  const Vec3u v = at.v;
+  const Triangle& tri = at.tri;
+  const Transform* const transform = at.transform;
+  const float b1 = hit.b1, b2 = hit.b2, b0 = 1 - b1 - b2;
+  const bool smooth = !mesh.normals.empty();
+  auto [ng, ns] = at.normals;
 
   Vec2f uv{b1, b2};
   const Frame around = frameFromNormal(ng);

@@ -181,12 +181,13 @@ Reflection Arrivals::ownOf(MaterialHandle material, const relight::SurroundingVe
     for (size_t i = 0; i < 3; ++i)
       n += input_.data.mesh.vertices[around.vertex[i]].n * around.weight[i];
     const float size = length(n);
-    if (size > 0 && dot(n, wo) < kGrazing * size) wo = aboveHorizon(wo, surfacePoint(scene_, hit));
+    if (size > 0 && dot(n, wo) < kGrazing * size)
+      wo = aboveHorizon(wo, surfaceNormals(scene_, hit));
     if (!(size > 0) || !input_.tables.summary(material, n / size, wo, &own)) return {};
     return own;
   }
   const SurfacePoint at = surfacePoint(scene_, hit);
-  wo = aboveHorizon(wo, at);
+  wo = aboveHorizon(wo, {at.ng, at.frame.n});
   own.diffuse = diffuseAlbedo(makeBsdf(scene_, at, wo, 0), wo);
   return own;
 }

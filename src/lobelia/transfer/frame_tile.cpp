@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lobelia/trace/flush_denormals.h"
-#include "lobelia/transfer/resultant.h"
+#include "lobelia/transfer/packet_kernels.h"
 
 namespace lobelia::transfer {
 namespace {
@@ -16,12 +16,17 @@ using relight::TilePixel;
 // pixel.
 constexpr size_t kMostVertices = 16384;
 
-// False: nothing is known of this side.
-bool reflectionAt(const FrameInput& input, const SurfacePoint& at, Vec3f wo, Reflection* out) {
-  if (!at.material.valid()) return false;
-  if (input.tables.has(at.material)) return input.tables.at(at.material, at.frame.n, wo, out);
-  *out = reflectionOf(makeBsdf(input.tracer.scene(), at, wo, 0), wo);
-  return true;
+// A pixel without table: the lanes it has not are lobes of nothing.
+void setReflection(const Reflection& own, PixelPacket* packet, size_t lane) {
+  packet->diffuse.set(lane, own.diffuse), packet->glossy.set(lane, own.glossy);
+  packet->mirror.set(lane, own.mirror), packet->r.set(lane, own.r);
+  packet->lobeCount = Reflection::kMostLobes;
+  for (int j = 0; j < Reflection::kMostLobes; ++j) {
+    const ReflectedLobe lobe =
+        j < own.count ? own.lobes[static_cast<size_t>(j)] : ReflectedLobe{own.mirror, 1, {}};
+    PixelPacket::Lobe& to = packet->lobes[j];
+    to.axis.set(lane, lobe.axis), to.alpha.set(lane, lobe.alpha), to.kappa.at[lane] = lobe.kappa;
+  }
 }
 
 }  // namespace
@@ -34,10 +39,15 @@ void TileCounts::add(const TileCounts& o) {
 }
 
 void FrameTile::placePixels(const FrameInput& input) {
-  for (TilePixel& pixel : pixels_) {
+  const Scene& scene = input.tracer.scene();
+  normals_.resize(pixels_.size());
+  for (size_t i = 0; i < pixels_.size(); ++i) {
+    TilePixel& pixel = pixels_[i];
     if (!pixel.hit) continue;
+    normals_[i] = surfaceNormals(scene, *pixel.hit);
     const relight::SurroundingVertices around = input.data.mesh.around(*pixel.hit);
-    const Side side = input.lookup.sideOf(*pixel.hit, -pixel.ray.d);
+    const Side side = input.lookup.sideOf(scene.instances[pixel.hit->instance].material,
+                                          normals_[i].ng, -pixel.ray.d);
     for (size_t v = 0; v < 3; ++v) {
       pixel.place.slot[v] = vertices_.slotOf(around.vertex[v], side);
       pixel.place.weight[v] = around.weight[v];
@@ -45,81 +55,84 @@ void FrameTile::placePixels(const FrameInput& input) {
   }
 }
 
-void FrameTile::shade(const FrameInput& input, TileCounts* counts) {
-  for (const TilePixel& pixel : pixels_) {
-    const Rgb value = radiance(input, pixel) * pixel.weight;
-    counts->objectPixels += pixel.hit ? 1 : 0;
-    if (isFinite(value)) {
-      sums_[pixel.index] += value;
-    } else {
-      ++counts->nonFinite;
-      counts->firstBad = std::min(counts->firstBad.value_or(pixel.index), pixel.index);
-    }
-  }
+void FrameTile::shade(const FrameInput& input) {
+  packets_.resize(input.tables.tableCount() + 1);
+  for (size_t i = 0; i < pixels_.size(); ++i) addPixel(input, i);
+  for (size_t table = 0; table < packets_.size(); ++table)
+    if (packets_[table] && packets_[table]->count > 0) finish(input, table);
 }
 
-Rgb FrameTile::radiance(const FrameInput& input, const TilePixel& pixel) {
+void FrameTile::addPixel(const FrameInput& input, size_t number) {
+  const TilePixel& pixel = pixels_[number];
   const bool hidden = input.settings.hideEmitters;
-  const FrameLight& light = input.light;
-  if (!pixel.hit)
-    return hidden ? Rgb{} : input.emitters.escaped(normalize(light.toLight * pixel.ray.d));
-  const SurfacePoint at = surfacePoint(input.tracer.scene(), *pixel.hit);
-  const Vec3f wo = aboveHorizon(-pixel.ray.d, at);
-  Rgb sum = at.emitter.valid() && !hidden ? input.emitters.emitted(at, -pixel.ray.d) : Rgb{};
-  Reflection own;
-  if (!reflectionAt(input, at, wo, &own)) return sum;
-  if (own.diffuse != Rgb{}) {
-    Rgb arriving{};
-    for (size_t v = 0; v < 3; ++v)
-      arriving += vertices_.diffuse(pixel.place.slot[v]) * pixel.place.weight[v];
-    sum += own.diffuse * arriving;
+  if (!pixel.hit) {
+    if (!hidden) addTo(pixel, input.emitters.escaped(normalize(input.light.toLight * pixel.ray.d)));
+    return;
   }
-  if (own.count == 0) return sum;
-  if (light.firstPass == 0 && light.endPass > 0) sum += straight(light, own, pixel.place);
-  return sum + reflected(light, own, pixel.place);
-}
-
-Rgb FrameTile::straight(const FrameLight& light, const Reflection& own, const PixelPlace& place) {
-  VisibleSum visible(own.r);
-  for (size_t v = 0; v < 3; ++v) visible.add(place.weight[v], vertices_.visible(place.slot[v]));
-  const VisiblePart part = visible.part();
-  if (!part.whole && part.share == Rgb{}) return {};
-  Rgb sum{};
-  for (size_t i = 0; i < static_cast<size_t>(own.count); ++i) {
-    const ReflectedLobe lobe = visibleOf(own.lobes[i], part);
-    sum += lobe.alpha * light.lookUp(lobe.axis, lobe.kappa);
+  ++counts_.objectPixels;
+  const Scene& scene = input.tracer.scene();
+  const Instance& instance = scene.instances[pixel.hit->instance];
+  const Vec3f wo = aboveHorizon(-pixel.ray.d, normals_[number]);
+  const Vec3f emitted = instance.emitter.valid() && !hidden
+                            ? input.emitters.emitted(surfacePoint(scene, *pixel.hit), -pixel.ray.d)
+                            : Rgb{};
+  const bool behind = dot(normals_[number].n, wo) < 0;
+  const bool tabled = input.tables.has(instance.material);
+  const size_t table =
+      tabled ? ReflectionTables::numberOf(instance.material, behind) : input.tables.tableCount();
+  if (!instance.material.valid() || (tabled && input.tables.rows(table).nodes == nullptr)) {
+    addTo(pixel, emitted);  // nothing is reflected on this side
+    return;
   }
-  lightLookups_ += static_cast<size_t>(own.count);
-  return sum;
-}
-
-Rgb FrameTile::reflected(const FrameLight& light, const Reflection& own, const PixelPlace& place) {
-  std::span<const TransferLobe> lobes[3];
-  bool any = false;
+  PixelPacket& packet = packetFor(table);
+  const size_t lane = packet.count++;
+  packet.n.set(lane, behind ? -normals_[number].n : normals_[number].n);
+  packet.wo.set(lane, wo), packet.emitted.set(lane, emitted);
+  packet.number[lane] = static_cast<uint32_t>(number);
   for (size_t v = 0; v < 3; ++v) {
-    lobes[v] = vertices_.lobes(place.slot[v]);
-    any = any || !lobes[v].empty();
+    packet.slot[v][lane] = pixel.place.slot[v];
+    packet.weight[v].at[lane] = pixel.place.weight[v];
   }
-  if (!any) return {};
-  Rgb sum{};
-  for (size_t i = 0; i < vertices_.lobeCount(); ++i) {
-    LobeSum between;
-    for (size_t v = 0; v < 3; ++v)
-      if (!lobes[v].empty() && lobes[v][i].share != Rgb{})
-        between.add(place.weight[v], lobes[v][i], vertices_.mirror(place.slot[v]));
-    if (between.empty()) continue;
-    const TransferLobe lobe = between.lobe();
-    const float size = length(lobe.r);
-    const Vec3f axis = size > 0 ? lobe.r / size : own.mirror;
-    sum += lobe.share * light.lookUp(axis, kappaOfResultant(size));
-    ++lightLookups_;
+  if (!tabled)
+    setReflection(reflectionOf(makeBsdf(scene, surfacePoint(scene, *pixel.hit), wo, 0), wo),
+                  &packet, lane);
+  if (packet.count == PixelPacket::kSize) finish(input, table);
+}
+
+PixelPacket& FrameTile::packetFor(size_t table) {
+  if (!packets_[table]) packets_[table] = std::make_unique<PixelPacket>();
+  return *packets_[table];
+}
+
+void FrameTile::finish(const FrameInput& input, size_t table) {
+  PixelPacket& packet = *packets_[table];
+  packet.fillUp();
+  if (table < input.tables.tableCount()) lookUpReflection(input.tables.rows(table), &packet);
+  const FrameLight& light = input.light;
+  const PacketLight packetLight{
+      light.prefiltered.levels(),
+      {light.toLight.rows[0], light.toLight.rows[1], light.toLight.rows[2]},
+      light.firstPass == 0 && light.endPass > 0};
+  lightLookups_ += shadePacket(vertices_.rows(), packetLight, &packet) * packet.count;
+  for (size_t i = 0; i < packet.count; ++i)
+    addTo(pixels_[packet.number[i]], packet.radiance.get(i));
+  packet.count = 0;
+}
+
+void FrameTile::addTo(const TilePixel& pixel, Rgb value) {
+  value *= pixel.weight;
+  if (isFinite(value)) {
+    sums_[pixel.index] += value;
+    return;
   }
-  return own.glossy * sum;
+  ++counts_.nonFinite;
+  counts_.firstBad = std::min(counts_.firstBad.value_or(pixel.index), pixel.index);
 }
 
 TileCounts FrameTile::render(const FrameInput& input, const relight::TileArea& area, Film& film) {
   const FlushDenormals flush;
-  TileCounts counts;
+  TileCounts& counts = counts_;
+  counts = {};
   sums_.assign(kTileSize * kTileSize, Rgb{});
   if (frame_ != input.frame) vertices_.begin(input.lookup, input.data, input.light, input.eye);
   frame_ = input.frame;
@@ -135,7 +148,7 @@ TileCounts FrameTile::render(const FrameInput& input, const relight::TileArea& a
     const int64_t placed = nanosecondsNow();
     vertices_.mergeNew();
     const int64_t merged = nanosecondsNow();
-    shade(input, &counts);
+    shade(input);
     counts.bufferNs += placed - start;
     counts.mergeNs += merged - placed;
     counts.shadeNs += nanosecondsNow() - merged;

@@ -35,17 +35,21 @@ class FrameTile {
 
  private:
   void placePixels(const FrameInput& input);
-  void shade(const FrameInput& input, TileCounts* counts);
-  Rgb radiance(const FrameInput& input, const relight::TilePixel& pixel);
-  // What comes by the glossy lobes straight from infinity, and over other surfaces.
-  Rgb straight(const FrameLight& light, const Reflection& own, const relight::PixelPlace& place);
-  Rgb reflected(const FrameLight& light, const Reflection& own, const relight::PixelPlace& place);
+  void shade(const FrameInput& input);
+  void addPixel(const FrameInput& input, size_t number);
+  // The packet of pixels that one table serves, or of those without any, with room for a pixel.
+  PixelPacket& packetFor(size_t table);
+  void finish(const FrameInput& input, size_t table);
+  void addTo(const relight::TilePixel& pixel, Rgb value);
 
   std::vector<relight::TilePixel> pixels_;
+  std::vector<SurfaceNormals> normals_;                // of pixels_
+  std::vector<std::unique_ptr<PixelPacket>> packets_;  // by table; the last one's have none
   std::vector<Rgb> sums_;
   uint64_t frame_ = 0;  // of vertices_
   FrameVertices vertices_;
   uint64_t lightLookups_ = 0;
+  TileCounts counts_;
 };
 
 }  // namespace lobelia::transfer

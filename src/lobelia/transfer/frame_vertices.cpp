@@ -30,8 +30,7 @@ void FrameVertices::begin(const SliceLookup& lookup, const TransferData& data,
 
 void FrameVertices::forget() {
   slots_.clear();
-  vertices_.clear(), mirrors_.clear(), visible_.clear(), diffuse_.clear(), hasLobes_.clear();
-  lobes_.clear();
+  vertices_.clear(), visible_.clear(), diffuse_.clear(), hasLobes_.clear(), lobes_.clear();
 }
 
 uint32_t FrameVertices::slotOf(uint32_t vertex, Side side) {
@@ -44,18 +43,17 @@ uint32_t FrameVertices::slotOf(uint32_t vertex, Side side) {
 }
 
 void FrameVertices::mergeNew() {
-  for (size_t slot = mirrors_.size(); slot < vertices_.size(); ++slot) {
+  for (size_t slot = visible_.size(); slot < vertices_.size(); ++slot) {
     const auto [vertex, side] = vertices_[slot];
     const TransferVertex& at = data_->mesh.vertices[vertex];
     const VertexView view = lookup_->view(vertex, eye_->from(at.p, at.n), side);
-    mirrors_.push_back(view.mirror);
-    visible_.push_back(light_->firstPass == 0 ? lookup_->visible(view) : VisiblePart{});
-    diffuse_.push_back(diffuseLight({vertex, side}));
+    visible_.emplace_back(light_->firstPass == 0 ? lookup_->visible(view) : VisiblePart{});
+    diffuse_.push_back({diffuseLight({vertex, side})});
     bool any = false;
     for (size_t pass = std::max<size_t>(light_->firstPass, 1); pass < light_->endPass; ++pass)
       for (size_t c = 0; c < data_->passes[pass].glossy.size(); ++c) {
-        lobes_.push_back(lookup_->glossy(view, pass, c));
-        any = any || luminance(lobes_.back().share) > 0;
+        lobes_.emplace_back(lookup_->glossy(view, pass, c), view.mirror);
+        any = any || lobes_.back().energy > 0;
       }
     hasLobes_.push_back(any ? 1 : 0);
     ++merged;

@@ -6,6 +6,7 @@
 #include "lobelia/relight/number_table.h"
 #include "lobelia/scene/camera.h"
 #include "lobelia/transfer/irradiance.h"
+#include "lobelia/transfer/pixel_packet.h"
 #include "lobelia/transfer/slice_lookup.h"
 
 namespace lobelia::transfer {
@@ -43,15 +44,10 @@ class FrameVertices {
   uint32_t slotOf(uint32_t vertex, Side side);
   void mergeNew();
 
-  const VisiblePart& visible(uint32_t slot) const { return visible_[slot]; }
-  Vec3f mirror(uint32_t slot) const { return mirrors_[slot]; }
-  // Radiance over albedo.
-  Rgb diffuse(uint32_t slot) const { return diffuse_[slot]; }
-  // Of passes after the first, class after class; lobeCount() of them. Empty: all are nothing.
-  std::span<const TransferLobe> lobes(uint32_t slot) const {
-    return {lobes_.data() + slot * lobeCount_, hasLobes_[slot] != 0 ? lobeCount_ : 0};
+  // By slot; lobes of passes after the first, class after class.
+  VertexRows rows() const {
+    return {visible_.data(), diffuse_.data(), lobes_.data(), hasLobes_.data(), lobeCount_};
   }
-  size_t lobeCount() const { return lobeCount_; }
 
   uint64_t merged = 0, lightLookups = 0;  // since begin()
 
@@ -70,11 +66,10 @@ class FrameVertices {
   size_t lobeCount_ = 0;
   relight::NumberTable slots_;
   std::vector<SeenVertex> vertices_;  // by slot, as all that follow
-  std::vector<Vec3f> mirrors_;
-  std::vector<VisiblePart> visible_;
-  std::vector<Rgb> diffuse_;
+  std::vector<VisibleRow> visible_;
+  std::vector<LightRow> diffuse_;
   std::vector<uint8_t> hasLobes_;
-  std::vector<TransferLobe> lobes_;
+  std::vector<LobeRow> lobes_;
 };
 
 }  // namespace lobelia::transfer

@@ -1,5 +1,7 @@
 #include "lobelia/transfer/lobe_sum.h"
 
+#include "lobelia/transfer/interpolation-inl.h"
+
 namespace lobelia::transfer {
 
 void LobeSum::add(float weight, const TransferLobe& lobe, Vec3f mirror) {
@@ -15,10 +17,10 @@ TransferLobe LobeSum::lobe() const {
   if (empty()) return {};
   const float moment = length(moment_);
   if (moment <= 0) return {share_, {}};
-  const float mean = lengths_ / energy_;
-  const float apart = std::max(0.f, 1 - length(mirrors_) / energy_);
-  const float allowed = moment / energy_ + mean * sqr(kMagnification) * apart;
-  return {share_, moment_ * (std::min(mean, allowed) / moment)};
+  const core::LobeTotals<float> totals{
+      {moment_.x, moment_.y, moment_.z}, {mirrors_.x, mirrors_.y, mirrors_.z}, lengths_, energy_};
+  const float size = core::resultantBetween(totals, moment, sqr(kMagnification));
+  return {share_, moment_ * (size / moment)};
 }
 
 }  // namespace lobelia::transfer

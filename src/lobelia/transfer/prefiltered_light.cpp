@@ -5,6 +5,7 @@
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/transfer/cube_map.h"
+#include "lobelia/transfer/interpolation-inl.h"
 #include "lobelia/transfer/lump_kernels.h"
 
 namespace lobelia::transfer {
@@ -16,7 +17,7 @@ constexpr float kSharpest = 6640;
 constexpr float kWidest = 0.25f;
 // Between levels of factor 4 light from one direction would err by 25 % of its peak, of factor 2 by
 // 6 %, so by 1.5 %; light as wide as the lobe by 0.2 %.
-constexpr float kLevelsPerOctave = 2;
+static_assert(PrefilteredLight::kLevelsPerOctave == 2);
 
 // Of a face, with its border. Bilinear interpolation errs by kappa (h_x^2 + h_y^2) / 8 of the peak
 // at most, where texels are h apart: 2 / 1.2664 / n in the middle of a face, the worst place. Light
@@ -87,6 +88,10 @@ PrefilteredLight::PrefilteredLight(const relight::DistantLight& light) {
   }
   // Side by side, because each begins with what one thread does: sorting the powers.
   parallelFor(levels_.size(), 1, [&](size_t l) { fill(light, &levels_[l]); });
+  for (const Level& level : levels_) {
+    texels_.push_back(level.texels.data()->value);
+    sizes_.push_back(static_cast<float>(level.size));
+  }
 }
 
 void PrefilteredLight::fill(const relight::DistantLight& light, Level* level) const {
@@ -113,28 +118,29 @@ void PrefilteredLight::fill(const relight::DistantLight& light, Level* level) co
   });
 }
 
+LightLevels PrefilteredLight::levels() const {
+  return {texels_.data(), sizes_.data(), sharpest(), static_cast<float>(levels_.size() - 1)};
+}
+
 float PrefilteredLight::levelOf(float kappa) const {
-  const auto last = static_cast<float>(levels_.size() - 1);
-  return std::clamp(kLevelsPerOctave * std::log2(kSharpest / std::max(kappa, 1e-6f)), 0.f, last);
+  return core::levelOfKappa(kappa, sharpest(), kLevelsPerOctave,
+                            static_cast<float>(levels_.size() - 1));
 }
 
 Rgb PrefilteredLight::lookUpAt(Vec3f axis, float level) const {
   const auto sharper = static_cast<size_t>(level);
   const float share = level - static_cast<float>(sharper);
-  const CubePlace place = cubePlace(axis);
+  const core::CubeSpot<float> spot = core::cubeSpot<float>({axis.x, axis.y, axis.z});
   float sum[4] = {};
   const auto add = [&](const Level& from, float weight) {
-    const float half = 0.5f * static_cast<float>(from.size - 2);
-    const float x = (place.at.x + 1) * half + 0.5f, y = (place.at.y + 1) * half + 0.5f;
-    const auto column = static_cast<size_t>(x), row = static_cast<size_t>(y);
-    const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
-    const auto stride = static_cast<size_t>(from.size);
-    const Texel* const t = from.texels.data() + (place.face * stride + row) * stride + column;
+    const auto [index, u, v] = core::texelPlace(spot, static_cast<float>(from.size));
+    const Texel* const t = from.texels.data() + static_cast<size_t>(index);
+    const Texel* const below = t + from.size;
     const float w[4] = {weight * (1 - u) * (1 - v), weight * u * (1 - v), weight * (1 - u) * v,
                         weight * u * v};
     for (size_t c = 0; c < 4; ++c)
-      sum[c] += w[0] * t[0].value[c] + w[1] * t[1].value[c] + w[2] * t[stride].value[c] +
-                w[3] * t[stride + 1].value[c];
+      sum[c] += w[0] * t[0].value[c] + w[1] * t[1].value[c] + w[2] * below[0].value[c] +
+                w[3] * below[1].value[c];
   };
   add(levels_[sharper], 1 - share);
   if (share > 0) add(levels_[sharper + 1], share);

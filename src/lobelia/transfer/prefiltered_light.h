@@ -9,11 +9,22 @@
 
 namespace lobelia::transfer {
 
+// For registers of lobes (packet_kernels.h).
+struct LightLevels {
+  const float* const* texels;  // by level: r, g, b and nothing of each texel, face after face
+  const float* sizes;          // by level: texels along an edge of a face, with the border
+  float sharpest = 0;          // kappa of level 0
+  float last = 0;              // number of the last level
+};
+
 class PrefilteredLight {
  public:
+  static constexpr float kLevelsPerOctave = 2;
   // Level l is the light convolved with a vMF lobe of kappa kappa0 / 2^(l / 2) at the texels of a
   // cube map as fine as its lobe needs. O(levels * texels), in parallel.
   explicit PrefilteredLight(const relight::DistantLight& light);
+  PrefilteredLight(PrefilteredLight&&) = default;
+  PrefilteredLight& operator=(PrefilteredLight&&) = default;
 
   // Integral of radiance times a vMF lobe (of integral 1); axis: unit, in the frame of the light.
   // Linear between texels and, in log kappa, between levels; kappa is taken to lie between those of
@@ -23,6 +34,7 @@ class PrefilteredLight {
   float levelOf(float kappa) const;
   Rgb lookUpAt(Vec3f axis, float level) const;
 
+  LightLevels levels() const;
   float sharpest() const { return levels_[0].kappa; }  // kappa of level 0
   size_t levelCount() const { return levels_.size(); }
   float kappaOf(size_t level) const { return levels_[level].kappa; }
@@ -39,6 +51,8 @@ class PrefilteredLight {
   };
   void fill(const relight::DistantLight& light, Level* level) const;
   std::vector<Level> levels_;
+  std::vector<const float*> texels_;  // of levels_, as LightLevels has them
+  std::vector<float> sizes_;
 };
 
 }  // namespace lobelia::transfer

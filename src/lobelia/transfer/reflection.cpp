@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "lobelia/base/frame.h"
 #include "lobelia/bsdf/scalar_lobe.h"
+#include "lobelia/transfer/interpolation-inl.h"
 #include "lobelia/transfer/quick_moments.h"
 #include "lobelia/transfer/reflected_lobes.h"
 
@@ -93,13 +93,10 @@ Reflection summaryOf(const Bsdf& bsdf, Vec3f wo) {
   return out;
 }
 
-// Half a turn about `from`, then one about the direction midway.
 Vec3f turned(Vec3f v, Vec3f from, Vec3f to) {
-  Vec3f midway = from + to;
-  float length2 = lengthSquared(midway);
-  if (length2 < 1e-8f) midway = frameFromNormal(from).s, length2 = 1;  // any axis across
-  const Vec3f once = from * (2 * dot(from, v)) - v;
-  return midway * (2 * dot(midway, once) / length2) - once;
+  const core::V3<float> out =
+      core::turnedWith<float>({v.x, v.y, v.z}, {from.x, from.y, from.z}, {to.x, to.y, to.z});
+  return {out.x, out.y, out.z};
 }
 
 }  // namespace lobelia::transfer

@@ -8,6 +8,7 @@
 
 #include "lobelia/bsdf/bsdf.h"
 #include "lobelia/scene/shading.h"
+#include "lobelia/transfer/elevation_rows.h"
 
 namespace lobelia::transfer {
 
@@ -51,6 +52,13 @@ class ReflectionTables {
   bool at(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const;
   // The same without lobes, for sums of many.
   bool summary(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const;
+  // Tables by number, for registers of pixels: two for each material of the scene, behind last.
+  size_t tableCount() const;
+  static size_t numberOf(MaterialHandle material, bool behind) {
+    return 2 * size_t{material.index} + (behind ? 1 : 0);
+  }
+  // Without nodes: that side reflects nothing. Of a material that has a table.
+  ElevationRows rows(size_t number) const;
   // kappa of a material's sharpest glossy lobe, for directions of wo up to 45 degrees from the
   // normal; of one without table where some triangles have their middles. 0: there is none.
   float sharpest(MaterialHandle material) const;

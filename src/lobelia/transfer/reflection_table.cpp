@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "lobelia/bsdf/scalar_lobe.h"
+#include "lobelia/transfer/interpolation-inl.h"
 #include "lobelia/transfer/lobe_fit.h"
 #include "lobelia/transfer/lobe_moments.h"
 #include "lobelia/transfer/reflected_lobes.h"
@@ -225,42 +226,39 @@ float ReflectionTable::sharpest() const {
 
 namespace {
 
-// The nodes around a cosine.
-struct Place {
-  size_t node;
-  float t;
-};
-Place placeOf(float cosine) {
-  const float x = std::sqrt(std::min(cosine, 1.f)) * static_cast<float>(kNodes - 1);
-  const size_t node = std::min(static_cast<size_t>(x), kNodes - 2);
-  return {node, x - static_cast<float>(node)};
+core::V3<float> v3(Vec3f v) { return {v.x, v.y, v.z}; }
+Vec3f vec(core::V3<float> v) { return {v.x, v.y, v.z}; }
+
+core::SummaryBetween<float> summaryOf(const ElevationRows& rows, float cosine, Vec3f n, Vec3f wo,
+                                      Reflection* out) {
+  const core::SummaryBetween<float> summary = core::summaryBetween(rows, cosine, v3(n), v3(wo));
+  out->n = n;
+  out->mirror = vec(summary.mirror);
+  out->diffuse = vec(summary.diffuse);
+  out->glossy = vec(summary.glossy);
+  out->r = vec(summary.r);
+  out->count = 0;
+  return summary;
 }
 
 }  // namespace
 
+ElevationRows ReflectionTable::rows() const {
+  return {reinterpret_cast<const float*>(nodes_.data()),
+          reinterpret_cast<const float*>(lobes_.data()), static_cast<int>(nodes_.size()),
+          lobeCount_};
+}
+
 void ReflectionTable::summary(float cosine, Vec3f n, Vec3f wo, Reflection* out) const {
-  const Place place = placeOf(cosine);
-  const Node &a = nodes_[place.node], &b = nodes_[place.node + 1];
-  out->n = n;
-  out->mirror = n * (2 * cosine) - wo;
-  out->diffuse = lerp(a.diffuse, b.diffuse, place.t);
-  out->glossy = lerp(a.glossy, b.glossy, place.t);
-  out->r = out->mirror * lerp(a.mirror, b.mirror, place.t) + n * lerp(a.normal, b.normal, place.t);
-  out->count = 0;
+  summaryOf(rows(), cosine, n, wo, out);
 }
 
 void ReflectionTable::lookUp(float cosine, Vec3f n, Vec3f wo, Reflection* out) const {
-  summary(cosine, n, wo, out);
-  const Place place = placeOf(cosine);
-  const auto count = static_cast<size_t>(lobeCount_);
-  const LobeNode* const a = lobes_.data() + place.node * count;
-  const LobeNode* const b = a + count;
-  for (size_t j = 0; j < count; ++j) {
-    const float t = place.t;
-    const Vec3f axis =
-        out->mirror * lerp(a[j].mirror, b[j].mirror, t) + n * lerp(a[j].normal, b[j].normal, t);
-    const float width = lerp(a[j].width, b[j].width, t);
-    out->lobes[j] = {normalize(axis), 1 / (width * width), lerp(a[j].alpha, b[j].alpha, t)};
+  const ElevationRows nodes = rows();
+  const core::SummaryBetween<float> summary = summaryOf(nodes, cosine, n, wo, out);
+  for (int j = 0; j < lobeCount_; ++j) {
+    const core::LobeBetween<float> lobe = core::lobeBetween(nodes, j, summary, v3(n));
+    out->lobes[static_cast<size_t>(j)] = {vec(lobe.axis), lobe.kappa, vec(lobe.alpha)};
   }
   out->count = lobeCount_;
 }

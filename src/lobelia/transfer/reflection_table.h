@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "lobelia/transfer/elevation_rows.h"
 #include "lobelia/transfer/reflection.h"
 
 namespace lobelia::transfer {
@@ -22,6 +23,9 @@ class ReflectionTable {
   // angles lobes get long and thin, without end. 0: there is none.
   float sharpest() const;
 
+  // For registers of pixels; nothing of it unless it reflects.
+  ElevationRows rows() const;
+
   // cosine: between n, on wo's side, and wo; > 0.
   void summary(float cosine, Vec3f n, Vec3f wo, Reflection* out) const;
   // The same with lobes.
@@ -37,6 +41,8 @@ class ReflectionTable {
     float width = 1;               // 1 / sqrt(kappa)
     Rgb alpha{};
   };
+  static_assert(sizeof(Node) == ElevationRows::kNodeStride * sizeof(float));
+  static_assert(sizeof(LobeNode) == ElevationRows::kLobeStride * sizeof(float));
   struct Builder;
   void fillDark();
   void sortByWidth();

@@ -113,6 +113,13 @@ bool ReflectionTables::summary(MaterialHandle material, Vec3f n, Vec3f wo, Refle
   return true;
 }
 
+size_t ReflectionTables::tableCount() const { return 2 * impl_->tables.size(); }
+
+ElevationRows ReflectionTables::rows(size_t number) const {
+  const ReflectionTable& table = (*impl_->tables[number / 2])[number % 2];
+  return table.reflects() ? table.rows() : ElevationRows{};
+}
+
 float ReflectionTables::sharpest(MaterialHandle material) const {
   return material.valid() ? impl_->sharpest[material.index] : 0.f;
 }

@@ -1,15 +1,15 @@
 #include "lobelia/transfer/resultant.h"
 
-#include <algorithm>
 #include <array>
 
 #include "lobelia/lobes/spherical_gaussian.h"
+#include "lobelia/transfer/interpolation-inl.h"
 #include "lobelia/transfer/slice_record.h"
 
 namespace lobelia::transfer {
 namespace {
 
-constexpr size_t kCells = 256;
+constexpr auto kCells = static_cast<size_t>(kResultantCells);
 
 double banerjee(double r) { return r * (3 - r * r) / ((1 - r) * (1 + r)); }
 
@@ -27,13 +27,10 @@ const std::array<float, kCells + 2> kCorrections = corrections();
 
 }  // namespace
 
+const float* resultantCorrections() { return kCorrections.data(); }
+
 float kappaOfResultant(float r) {
-  r = std::clamp(r, 0.f, 1.f);
-  const float at = r * kCells;
-  const auto cell = static_cast<size_t>(at);
-  const float share = at - static_cast<float>(cell);
-  const float correction = kCorrections[cell] * (1 - share) + kCorrections[cell + 1] * share;
-  return std::min(correction * r * (3 - r * r) / std::max((1 - r) * (1 + r), 1e-7f), kMostKappa);
+  return core::kappaByTable(r, kCorrections.data(), kResultantCells, kMostKappa);
 }
 
 }  // namespace lobelia::transfer

@@ -7,4 +7,8 @@ namespace lobelia::transfer {
 // 5 %, times a tabulated correction: relative error below 1e-4.
 float kappaOfResultant(float r);
 
+// The table, for registers of r: at r = i / kResultantCells, and one beyond the last.
+inline constexpr float kResultantCells = 256;
+const float* resultantCorrections();
+
 }  // namespace lobelia::transfer

@@ -14,10 +14,10 @@ Vec3f lifted(Vec3f wo, Vec3f n) { return normalize(wo + n * (kHorizon - dot(n, w
 
 }  // namespace
 
-Vec3f aboveHorizon(Vec3f wo, const SurfacePoint& at) {
+Vec3f aboveHorizon(Vec3f wo, const SurfaceNormals& at) {
   const float side = dot(at.ng, wo) < 0 ? -1.f : 1.f;
-  const Vec3f n = at.frame.n * side;
-  return dot(n, wo) < kHorizon && dot(at.frame.n, at.ng) > 0 ? lifted(wo, n) : wo;
+  const Vec3f n = at.n * side;
+  return dot(n, wo) < kHorizon && dot(at.n, at.ng) > 0 ? lifted(wo, n) : wo;
 }
 
 SliceLookup::SliceLookup(const Scene& scene, const TransferData& data,
@@ -28,8 +28,9 @@ SliceLookup::SliceLookup(const Scene& scene, const TransferData& data,
 }
 
 Side SliceLookup::sideOf(const Hit& hit, Vec3f wo) const {
-  if (!reflectsBehind(scene_.instances[hit.instance].material)) return Side::front;
-  return dot(surfacePoint(scene_, hit).ng, wo) < 0 ? Side::back : Side::front;
+  const MaterialHandle material = scene_.instances[hit.instance].material;
+  if (!reflectsBehind(material)) return Side::front;
+  return sideOf(material, surfaceNormals(scene_, hit).ng, wo);
 }
 
 VertexView SliceLookup::view(uint32_t vertex, Vec3f wo, Side side, const GridPlace& place) const {

@@ -14,7 +14,7 @@ namespace lobelia::transfer {
 
 // wo, or where it is in front of a place's surface and behind its interpolated normal, which
 // happens along silhouettes, the direction just above the horizon next to it.
-Vec3f aboveHorizon(Vec3f wo, const SurfacePoint& at);
+Vec3f aboveHorizon(Vec3f wo, const SurfaceNormals& at);
 
 // A vertex as it is seen from somewhere.
 struct VertexView {
@@ -40,6 +40,10 @@ class SliceLookup {
   const GeodesicGrid& directions() const { return grid_; }
   // Of a place of the scene, towards wo. The front for all that scatter nothing behind.
   Side sideOf(const Hit& hit, Vec3f wo) const;
+  // The same, with the place's normal at hand.
+  Side sideOf(MaterialHandle material, Vec3f ng, Vec3f wo) const {
+    return reflectsBehind(material) && dot(ng, wo) < 0 ? Side::back : Side::front;
+  }
   // wo: unit, world, to the eye. place: where directions() locates it. side: of the place that is
   // looked up, the same for all vertices around it; taken for the front where only that reflects.
   // From behind the vertex's own horizon, as if from just above it.
