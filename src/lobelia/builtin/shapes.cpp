@@ -64,7 +64,7 @@ std::function<Vec2f(float)> smoothCurve(std::vector<Vec2f> points) {
   return [points = std::move(points)](float t) { return catmullRom(points, false, t); };
 }
 
-std::function<Vec2f(float)> rimmedCurve(std::vector<Vec2f> points) {
+std::function<Vec2f(float)> centripetalCurve(std::vector<Vec2f> points) {
   return [points = std::move(points)](float t) { return centripetalCatmullRom(points, t); };
 }
 
