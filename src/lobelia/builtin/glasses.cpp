@@ -32,8 +32,8 @@ class Glasses : SceneBuilder {
 
  private:
   MeshHandle vessel(const std::vector<Vec2f>& profile, const char* name) {
-    return add(revolve(smoothCurve(profile), segments(62, static_cast<int>(profile.size()) - 1),
-                       segments(72, 12)),
+    return add(revolve(centripetalCurve(profile),
+                       segments(62, static_cast<int>(profile.size()) - 1), segments(72, 12)),
                name);
   }
 

@@ -64,6 +64,10 @@ std::function<Vec2f(float)> smoothCurve(std::vector<Vec2f> points) {
   return [points = std::move(points)](float t) { return catmullRom(points, false, t); };
 }
 
+std::function<Vec2f(float)> centripetalCurve(std::vector<Vec2f> points) {
+  return [points = std::move(points)](float t) { return centripetalCatmullRom(points, t); };
+}
+
 Mesh torusKnot(const TorusKnot& knot, int along, int around) {
   const auto p = static_cast<float>(knot.p), q = static_cast<float>(knot.q);
   Mesh mesh;

@@ -19,6 +19,8 @@ Mesh revolve(const std::function<Vec2f(float)>& profile, int rows, int segments)
 
 // Smooth curve through points, first to last (uniform Catmull-Rom spline).
 std::function<Vec2f(float)> smoothCurve(std::vector<Vec2f> points);
+// The same without loops where long spans meet short ones (centripetal tangents).
+std::function<Vec2f(float)> centripetalCurve(std::vector<Vec2f> points);
 
 // Tube of radius `tube` around the (p, q) torus knot that winds p times around y and q times around
 // the ring of radius `ring`, at distance `wind` from it.
