@@ -75,10 +75,10 @@ const Reference& VmfViews::path(size_t view, int bounces) {
   return paths_.emplace(key, pathReference(*scene, samples_, seed, study_.context)).first->second;
 }
 
-Reference VmfViews::pathOfBounce(size_t view, int bounce) {
-  Reference reference = path(view, bounce);
-  if (bounce == 0) return reference;
-  const Reference& before = path(view, bounce - 1);
+Reference VmfViews::path(size_t view, int first, int bounces) {
+  Reference reference = path(view, bounces);
+  if (first == 0) return reference;
+  const Reference& before = path(view, first - 1);
   subtract(&reference.first, before.first);
   subtract(&reference.second, before.second);
   return reference;
@@ -92,9 +92,9 @@ std::vector<Film> VmfViews::frames(const transfer::TransferData& data, int first
   return films;
 }
 
-std::vector<Reference> VmfViews::paths() {
+std::vector<Reference> VmfViews::paths(int first) {
   std::vector<Reference> paths;
-  for (size_t v = 0; v < kViews; ++v) paths.push_back(path(v, kBounces));
+  for (size_t v = 0; v < kViews; ++v) paths.push_back(path(v, first, kBounces));
   return paths;
 }
 

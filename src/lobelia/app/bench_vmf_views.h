@@ -39,16 +39,14 @@ class VmfViews {
   }
   // The picture of passes [first, end) from one side.
   Film frame(transfer::TransferRenderer& renderer, size_t view, int first, int end);
-  // Light of at most that many reflections before the last, and of just as many.
+  // Light of at most that many reflections before the last, and of no fewer than `first`.
   const Reference& path(size_t view, int bounces);
-  Reference pathOfBounce(size_t view, int bounce);
+  Reference path(size_t view, int first, int bounces);
   // One from each side, of all passes from the first on.
   std::vector<Film> frames(const transfer::TransferData& data, int first = 0);
-  // From each side, of as many bounces as the data.
-  std::vector<Reference> paths();
+  // From each side, of as many bounces as the data, from the first on.
+  std::vector<Reference> paths(int first = 0);
   VmfError error(std::span<const Film> frames, std::span<const Reference> references) const;
-  // Against the path tracer, all passes of the data.
-  VmfError error(const transfer::TransferData& data) { return error(frames(data), paths()); }
   Comparison compared(const Film& film, size_t view, const Reference& path) const {
     return compare(film, path.first, &path.second, &objects_[view]);
   }
