@@ -200,6 +200,25 @@ TEST(BenchVmf, DataAndBounces) {
   expectPictures(folder, "vmf", {"figure1-teapot-32-0", "figure1-teapot-32-2-path"});
 }
 
+TEST(BenchVmf, ScatteringComesNearerWithRays) {
+  const TemporaryFolder folder;
+  const json rows = runBench(
+      "vmf --scene teapot-32 --detail 0.05 --pixels 1 --size 32x24 --spp 16 --figures 3 -o " +
+      folder.path())["figure3"];
+  expectNumbers(rows, 5,
+                {"mrays", "l2", "mean_ratio", "l2_converged", "mean_converged", "l2_bounces",
+                 "mean_bounces"});
+  for (size_t i = 0; i < 3; ++i) {
+    const double ratio = std::pow(4, i);
+    const json &row = rows[2 + i], &gathered = rows[0];
+    EXPECT_NEAR(row["mrays"].get<double>() / gathered["mrays"].get<double>(), ratio, 0.06 * ratio);
+  }
+  EXPECT_LT(rows[4]["l2_converged"], 0.5 * rows[2]["l2_converged"].get<double>());
+  EXPECT_LT(rows[4]["l2_bounces"], 0.5 * rows[2]["l2_bounces"].get<double>());
+  EXPECT_NEAR(rows[4]["mean_bounces"].get<double>(), 1, 0.02);
+  expectPictures(folder, "vmf", {"figure3-teapot-32-gathered"});
+}
+
 TEST(BenchCuts, DataAndError) {
   const TemporaryFolder folder;
   const json result = runBench(

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/transfer/frame.h"
 #include "lobelia/transfer/sample_lobe.h"
 #include "relight/scenes.h"
 
@@ -146,6 +147,49 @@ TEST(ScatterTransfer, IsTheSameForAnyNumberOfThreads) {
     }
   }
   EXPECT_GT(data[0].recordCount(), 100u);
+}
+
+Camera cameraAt(Vec3d eye) {
+  Camera camera;
+  camera.toWorld = Transform(*lookAt(eye, {0, 0, -0.3}, {0, 0, 1}));
+  camera.fovX = 0.9f;
+  camera.width = 24, camera.height = 20;
+  return camera;
+}
+
+Film frameOf(const Tracer& tracer, const TransferData& data, const Camera& camera,
+             Context& context) {
+  const EmitterSampler emitters(tracer.scene(), tracer.bounds());
+  TransferRenderer renderer(tracer, data);
+  renderer.relight(emitters, context);
+  Film film;
+  film.width = film.fullWidth = camera.width, film.height = film.fullHeight = camera.height;
+  film.addLayer("");
+  renderer.render({}, camera, film, context);
+  return film;
+}
+
+TEST(ScatterTransfer, SlicesThatAreSeenMakeTheSameFrames) {
+  Scene scene = ballOverGround();
+  Emitter sky;
+  sky.type = EmitterType::constant;
+  sky.radiance = Rgb(1, 2, 3);
+  scene.emitters.push_back(sky);
+  Context context;
+  const Tracer tracer(scene, context);
+  const TransferData all = scatterTransfer(tracer, meshOf(scene), coarse(), 4, context);
+  const ReflectionTables tables(scene);
+  const Camera cameras[] = {cameraAt({0, -3, 1}), cameraAt({2, 2, 0.2})};
+  const SliceMask seen = seenSlices(SliceLookup(scene, all, tables), all, cameras);
+  const TransferData some = scatterTransfer(tracer, meshOf(scene), coarse(), 4, context, &seen);
+  EXPECT_LT(4 * some.recordCount(), all.recordCount());
+  for (const Camera& camera : cameras)
+    EXPECT_EQ(frameOf(tracer, some, camera, context).layers.at("").values,
+              frameOf(tracer, all, camera, context).layers.at("").values);
+  // From elsewhere slices are missing.
+  const Camera other = cameraAt({-3, 0.5, 0.5});
+  EXPECT_NE(frameOf(tracer, some, other, context).layers.at("").values,
+            frameOf(tracer, all, other, context).layers.at("").values);
 }
 
 TEST(ScatterTransfer, WantsRays) {

@@ -20,7 +20,7 @@ const std::vector<FigureScenes>& ownScenes() {
       {"hash", {"teapot-32", "teapot-64", "teapot-128", "teapot-256", "teapot-512"}},
       {"1", {"glasses"}},
       {"2", {"bird", "dragon", "glasses"}},
-      {"3", {"glasses"}},
+      {"3", {"teapot-128", "glasses"}},
       {"4", {"teapot-128", "glasses"}}};
   return scenes;
 }
@@ -52,6 +52,7 @@ transfer::TransferSettings settingsOf(const VmfKind& kind, const Scene& scene,
                                       const VmfStudy& study) {
   transfer::TransferSettings settings;
   settings.directionLevel = kind.directionLevel;
+  settings.rayLevel = kind.rayLevel;
   settings.mostVertices = study.options.pixels;
   if (kind.materials)
     settings.classCount =

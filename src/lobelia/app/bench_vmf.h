@@ -22,10 +22,12 @@ struct VmfStudy {
   void progress(const std::string& scene, const std::string& what) const;
 };
 
-// A choice of data: how many directions to the eye, and whether each material has a lobe.
+// A choice of data: how many directions to the eye, whether each material has a lobe, and of which
+// grid the rays are (TransferSettings::rayLevel).
 struct VmfKind {
   int directionLevel = 3;
   bool materials = false;
+  int rayLevel = 0;
   size_t directions() const { return 10 * (size_t{1} << 2 * directionLevel) + 2; }
   std::string name() const;  // for people
 };

@@ -48,7 +48,7 @@ class ErrorStudy {
     std::vector<FigurePicture> ours, paths;
     for (int j = 0; j <= VmfViews::kBounces; ++j) {
       const Film film = views_.frame(renderer, 0, j, j + 1);
-      const Reference path = views_.pathOfBounce(0, j);
+      const Reference path = views_.path(0, j, j);
       const Comparison error = views_.compared(film, 0, path);
       const char* const light = kBounceNames[j];
       table.rows.push_back({name_, std::string(light), error.l2, error.meanRatio});
@@ -85,21 +85,22 @@ class ErrorStudy {
                                               {"data", "data"},
                                               {"vertices", "vertices", "{:.0f}"},
                                               {"l2", "l2", "{:.4f}"},
-                                              {"mean_ratio", "mean ratio", "{:.4f}"}},
+                                              {"mean_ratio", "mean ratio", "{:.4f}"},
+                                              {"l2_bounces", "l2 of bounces", "{:.4f}"},
+                                              {"mean_bounces", "mean ratio", "{:.4f}"}},
                                              {},
                                              {views_.note()}});
-    const VmfError error = views_.error(data);
+    const std::vector<Film> frames = views_.frames(data);
+    const VmfError all = views_.error(frames, views_.paths());
+    const VmfError bounces = views_.error(views_.frames(data, 1), views_.paths(1));
     table.rows.push_back({name_, kind.name(), static_cast<double>(data.mesh.vertices.size()),
-                          error.l2, error.meanRatio});
-    transfer::TransferRenderer renderer(views_.tracer(), data);
-    views_.light(&renderer);
+                          all.l2, all.meanRatio, bounces.l2, bounces.meanRatio});
     const std::string file = fmt::format("figure4-{}-{}{}", name_, kind.directions(),
                                          kind.materials ? "-materials" : "");
-    study_.report.show(
-        "figure4", fmt::format("{}, {}", name_, kind.name()),
-        {{"transfer", picture(file, views_.frame(renderer, 0, 0, VmfViews::kBounces + 1))},
-         {"path tracer", picture(fmt::format("figure4-{}-path", name_),
-                                 views_.path(0, VmfViews::kBounces).first)}});
+    study_.report.show("figure4", fmt::format("{}, {}", name_, kind.name()),
+                       {{"transfer", picture(file, frames.front())},
+                        {"path tracer", picture(fmt::format("figure4-{}-path", name_),
+                                                views_.path(0, VmfViews::kBounces).first)}});
   }
 
   const std::string name_;

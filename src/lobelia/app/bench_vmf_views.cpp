@@ -75,22 +75,34 @@ const Reference& VmfViews::path(size_t view, int bounces) {
   return paths_.emplace(key, pathReference(*scene, samples_, seed, study_.context)).first->second;
 }
 
-Reference VmfViews::pathOfBounce(size_t view, int bounce) {
-  Reference reference = path(view, bounce);
-  if (bounce == 0) return reference;
-  const Reference& before = path(view, bounce - 1);
+Reference VmfViews::path(size_t view, int first, int bounces) {
+  Reference reference = path(view, bounces);
+  if (first == 0) return reference;
+  const Reference& before = path(view, first - 1);
   subtract(&reference.first, before.first);
   subtract(&reference.second, before.second);
   return reference;
 }
 
-VmfError VmfViews::error(const transfer::TransferData& data) {
+std::vector<Film> VmfViews::frames(const transfer::TransferData& data, int first) {
   transfer::TransferRenderer shown(tracer(), data);
   light(&shown);
+  std::vector<Film> films;
+  for (size_t v = 0; v < kViews; ++v) films.push_back(frame(shown, v, first, kBounces + 1));
+  return films;
+}
+
+std::vector<Reference> VmfViews::paths(int first) {
+  std::vector<Reference> paths;
+  for (size_t v = 0; v < kViews; ++v) paths.push_back(path(v, first, kBounces));
+  return paths;
+}
+
+VmfError VmfViews::error(std::span<const Film> frames,
+                         std::span<const Reference> references) const {
   VmfError sum;
   for (size_t v = 0; v < kViews; ++v) {
-    const Film film = frame(shown, v, 0, kBounces + 1);
-    const Comparison c = compared(film, v, path(v, kBounces));
+    const Comparison c = compared(frames[v], v, references[v]);
     sum.l2 += c.l2 / kViews, sum.meanRatio += c.meanRatio / kViews;
   }
   return sum;

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 
 #include "lobelia/app/bench_vmf.h"
 #include "lobelia/film/metrics.h"
@@ -28,6 +29,7 @@ class VmfViews {
   const Tracer& tracer() const { return scene_->tracer(); }
   const Scene& scene() const { return tracer().scene(); }
   const Camera& camera(size_t view) const { return cameras_[view]; }
+  std::span<const Camera> cameras() const { return cameras_; }
   int samples() const { return samples_; }
   std::string note() const;
 
@@ -37,11 +39,14 @@ class VmfViews {
   }
   // The picture of passes [first, end) from one side.
   Film frame(transfer::TransferRenderer& renderer, size_t view, int first, int end);
-  // Light of at most that many reflections before the last, and of just as many.
+  // Light of at most that many reflections before the last, and of no fewer than `first`.
   const Reference& path(size_t view, int bounces);
-  Reference pathOfBounce(size_t view, int bounce);
-  // Against the path tracer, all passes of the data.
-  VmfError error(const transfer::TransferData& data);
+  Reference path(size_t view, int first, int bounces);
+  // One from each side, of all passes from the first on.
+  std::vector<Film> frames(const transfer::TransferData& data, int first = 0);
+  // From each side, of as many bounces as the data, from the first on.
+  std::vector<Reference> paths(int first = 0);
+  VmfError error(std::span<const Film> frames, std::span<const Reference> references) const;
   Comparison compared(const Film& film, size_t view, const Reference& path) const {
     return compare(film, path.first, &path.second, &objects_[view]);
   }

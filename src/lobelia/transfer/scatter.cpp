@@ -41,6 +41,7 @@ struct ScatterInput {
   size_t passes, classCount;
   int rays;  // of a slice
   uint64_t seed;
+  const SliceMask* only;  // null: all slices
 };
 
 // What the paths of a slice bring, by pass and column: a class, or an octant of diffuse light.
@@ -89,7 +90,8 @@ class BlockScatter {
     for (Row& row : rows_) row.clear();
     own_.clear();
     const uint64_t stream = vertex * (input_.directions.count() + 1);
-    for (uint32_t k = 0; k < input_.directions.count(); ++k) slice(k, stream + k);
+    for (uint32_t k = 0; k < input_.directions.count(); ++k)
+      if (isWanted(vertex, k)) slice(k, stream + k);
     for (size_t j = 0; j < input_.passes; ++j)
       for (size_t c = 0; c < classes(j); ++c)
         out_[j].glossy[c].addRow(row(j, c).columns, row(j, c).records);
@@ -105,6 +107,9 @@ class BlockScatter {
 
  private:
   size_t classes(size_t pass) const { return pass == 0 ? 1 : input_.classCount + 1; }
+  bool isWanted(size_t vertex, uint32_t k) const {
+    return !input_.only || (*input_.only)[vertex * input_.directions.count() + k];
+  }
   Row& row(size_t pass, size_t c) { return rows_[pass * (input_.classCount + 1) + c]; }
   Bsdf bsdf(Vec3f wo) const { return makeBsdf(input_.tracer.scene(), at_, wo, 0); }
 
@@ -238,7 +243,8 @@ BlockCounts scatterBlocks(const ScatterInput& input, Context& context, TransferD
 }  // namespace
 
 TransferData scatterTransfer(const Tracer& tracer, TransferMesh mesh,
-                             const TransferSettings& settings, int raysPerSlice, Context& context) {
+                             const TransferSettings& settings, int raysPerSlice, Context& context,
+                             const SliceMask* only) {
   if (raysPerSlice < 1 || raysPerSlice > kMostRays)
     throw UsageError(
         fmt::format("{} rays per slice: must be from 1 to {}", raysPerSlice, kMostRays));
@@ -267,7 +273,7 @@ TransferData scatterTransfer(const Tracer& tracer, TransferMesh mesh,
       tracer,       data.mesh,          faces,
       tables,       directions,         data.diffuseSides,
       diffuse.any,  data.passes.size(), static_cast<size_t>(settings.classCount),
-      raysPerSlice, context.seed};
+      raysPerSlice, context.seed,       only};
   const BlockCounts counts = scatterBlocks(input, context, &data);
   Statistics& s = context.statistics;
   s.addCount("transfer_rays", counts.rays);

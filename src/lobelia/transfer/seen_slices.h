@@ -1,0 +1,20 @@
+// The slices that frames of some cameras look up: about nine of each vertex' hundreds, which is
+// what of transfer has to be made where nothing but these frames is to be judged.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lobelia/scene/camera.h"
+#include "lobelia/transfer/slice_lookup.h"
+
+namespace lobelia::transfer {
+
+// By vertex, then direction to the eye.
+using SliceMask = std::vector<bool>;
+
+// lookup: of these data; both sides of vertices count, whether the cameras see them or not.
+SliceMask seenSlices(const SliceLookup& lookup, const TransferData& data,
+                     std::span<const Camera> cameras);
+
+}  // namespace lobelia::transfer
