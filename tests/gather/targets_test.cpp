@@ -1,26 +1,13 @@
 // Every SIMD target that this processor has gives the same picture.
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include "gather/random_input.h"
+#include "support/simd_targets.h"
 
 namespace lobelia {
 namespace {
 
 using namespace test;
-
-// Makes the next dispatch choose one target; all of the processor's again at the end.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(target);
-  }
-  ~OnlyTarget() {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
 
 TEST(SimdTargets, AgreeOnAllLobesAndLights) {
   const Scene scene = randomTriangles(40, 31);
@@ -41,12 +28,10 @@ TEST(SimdTargets, AgreeOnAllLobesAndLights) {
     return radiance;
   };
   const std::vector<Rgb> best = gatherWith();
-  // Targets of kernels.cpp; the baseline's scalar code is always among them.
   int tested = 0;
-  const int64_t usable = hwy::SupportedTargets() & HWY_TARGETS & ~HWY_SSSE3;
-  for (int64_t left = usable; left != 0; left &= left - 1) {
-    const OnlyTarget target(left & -left);
-    SCOPED_TRACE(hwy::TargetName(left & -left));
+  for (const int64_t each : usableTargets()) {
+    const OnlyTarget target(each);
+    SCOPED_TRACE(hwy::TargetName(each));
     const std::vector<Rgb> radiance = gatherWith();
     ++tested;
     for (size_t i = 0; i < best.size(); ++i) {

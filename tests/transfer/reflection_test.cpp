@@ -29,12 +29,14 @@ TEST(Turned, TakesOneDirectionToTheOtherAndKeepsAngles) {
 }
 
 TEST(Turned, NowhereAndHalfWayRound) {
-  const Vec3f d = normalize(Vec3f(1, 2, 3)), v(0.1f, -0.5f, 0.2f);
-  EXPECT_LT(length(turned(v, d, d) - v), 1e-6f);
-  EXPECT_LT(length(turned(d, d, -d) + d), 1e-6f);
-  EXPECT_NEAR(length(turned(v, d, -d)), length(v), 1e-6f);
-  const Vec3f close = normalize(-d + Vec3f(1e-3f, 0, 0));
-  EXPECT_LT(length(turned(d, d, close) - close), 1e-3f);
+  const Vec3f v(0.1f, -0.5f, 0.2f);
+  for (const Vec3f d : {normalize(Vec3f(1, 2, 3)), Vec3f(1, 0, 0), Vec3f(0, -1, 0)}) {
+    EXPECT_LT(length(turned(v, d, d) - v), 1e-6f);
+    EXPECT_LT(length(turned(d, d, -d) + d), 1e-6f);
+    EXPECT_NEAR(length(turned(v, d, -d)), length(v), 1e-6f);
+    const Vec3f close = normalize(-d + Vec3f(1e-3f, 2e-3f, 0));
+    EXPECT_LT(length(turned(d, d, close) - close), 1e-3f);
+  }
 }
 
 // Of f cos over all directions: albedo, then the directions by luminance.

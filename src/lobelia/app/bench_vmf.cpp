@@ -63,7 +63,7 @@ transfer::TransferSettings settingsOf(const VmfKind& kind, const Scene& scene,
 VmfData makeTransfer(const Tracer& tracer, const VmfKind& kind, const VmfStudy& study) {
   const Statistics& s = study.context.statistics;
   const double masks = s.seconds("masks");
-  const uint64_t rays = s.count("transfer_rays"), slices = s.count("slices");
+  const uint64_t rays = s.count("transfer_rays");
   const int64_t start = nanosecondsNow();
   VmfData made;
   made.data =
@@ -71,7 +71,6 @@ VmfData makeTransfer(const Tracer& tracer, const VmfKind& kind, const VmfStudy& 
   made.masks = s.seconds("masks") - masks;
   made.rest = 1e-9 * static_cast<double>(nanosecondsNow() - start) - made.masks;
   made.rays = static_cast<double>(s.count("transfer_rays") - rays);
-  made.slices = static_cast<double>(s.count("slices") - slices);
   return made;
 }
 

@@ -39,7 +39,6 @@ struct VmfData {
   transfer::TransferData data;
   double masks = 0, rest = 0;  // seconds: of masks and subdivision, and of all else
   double rays = 0;             // of gathering
-  double slices = 0;           // that reflect anything
 };
 VmfData makeTransfer(const Tracer& tracer, const VmfKind& kind, const VmfStudy& study);
 

@@ -41,11 +41,11 @@ inline Vec2f centripetalCatmullRom(const std::vector<Vec2f>& points, float t) {
   const float f = s - static_cast<float>(i);
   const auto point = [&](int k) { return points[static_cast<size_t>(std::clamp(k, 0, last))]; };
   const Vec2f b = point(i), c = point(i + 1), chord = c - b;
-  const auto knots = [](Vec2f d) { return std::sqrt(std::hypot(d.x, d.y)); };
-  const float span = knots(chord);
+  const auto knotInterval = [](Vec2f d) { return std::sqrt(std::hypot(d.x, d.y)); };
+  const float span = knotInterval(chord);
   // The tangent, over this span, at the end that it shares with a span of chord `other`.
   const auto tangent = [&](Vec2f other) {
-    const float next = knots(other);
+    const float next = knotInterval(other);
     if (next <= 0) return chord;  // the end of the row
     return (other * (span / next) + chord * (next / span)) * (span / (span + next));
   };

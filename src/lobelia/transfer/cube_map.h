@@ -2,6 +2,7 @@
 // angles. Smooth within a face and some way beyond its edges, so that maps with a border of texels
 // that lie beyond the edges are interpolated as well there as elsewhere. (The octahedral map has
 // kinks along the borders of octants, at which bilinear interpolation errs in the first order.)
+// Not for headers, for it includes a core one.
 #pragma once
 
 #include <array>

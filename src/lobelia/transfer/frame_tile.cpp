@@ -9,18 +9,17 @@ namespace lobelia::transfer {
 namespace {
 
 using relight::kTileSize;
-using relight::PixelPlace;
 using relight::TilePixel;
 
 // Vertices beyond which they are forgotten between samples; a sample adds at most three for each
 // pixel.
 constexpr size_t kMostVertices = 16384;
 
-// A pixel without table: the lanes it has not are lobes of nothing.
+// A pixel without table: the lobes it has not are lobes of nothing.
 void setReflection(const Reflection& own, PixelPacket* packet, size_t lane) {
   packet->diffuse.set(lane, own.diffuse), packet->glossy.set(lane, own.glossy);
   packet->mirror.set(lane, own.mirror), packet->r.set(lane, own.r);
-  packet->lobeCount = Reflection::kMostLobes;
+  packet->lobeCount = std::max(packet->lobeCount, own.count);
   for (int j = 0; j < Reflection::kMostLobes; ++j) {
     const ReflectedLobe lobe =
         j < own.count ? own.lobes[static_cast<size_t>(j)] : ReflectedLobe{own.mirror, 1, {}};
@@ -108,15 +107,10 @@ void FrameTile::finish(const FrameInput& input, size_t table) {
   PixelPacket& packet = *packets_[table];
   packet.fillUp();
   if (table < input.tables.tableCount()) lookUpReflection(input.tables.rows(table), &packet);
-  const FrameLight& light = input.light;
-  const PacketLight packetLight{
-      light.prefiltered.levels(),
-      {light.toLight.rows[0], light.toLight.rows[1], light.toLight.rows[2]},
-      light.firstPass == 0 && light.endPass > 0};
-  lightLookups_ += shadePacket(vertices_.rows(), packetLight, &packet) * packet.count;
+  lightLookups_ += shadePacket(vertices_.rows(), input.light.forPackets(), &packet);
   for (size_t i = 0; i < packet.count; ++i)
     addTo(pixels_[packet.number[i]], packet.radiance.get(i));
-  packet.count = 0;
+  packet.clear();
 }
 
 void FrameTile::addTo(const TilePixel& pixel, Rgb value) {
@@ -133,6 +127,8 @@ TileCounts FrameTile::render(const FrameInput& input, const relight::TileArea& a
   const FlushDenormals flush;
   TileCounts& counts = counts_;
   counts = {};
+  for (const auto& packet : packets_)
+    if (packet) packet->clear();  // of a tile that was left halfway
   sums_.assign(kTileSize * kTileSize, Rgb{});
   if (frame_ != input.frame) vertices_.begin(input.lookup, input.data, input.light, input.eye);
   frame_ = input.frame;

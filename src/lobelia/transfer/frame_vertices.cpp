@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lobelia/transfer/resultant.h"
+#include "lobelia/transfer/packet_kernels.h"
 
 namespace lobelia::transfer {
 
@@ -60,37 +60,43 @@ void FrameVertices::mergeNew() {
   }
 }
 
-Rgb FrameVertices::lightOf(const DiffuseLobes& lobes) {
-  Rgb sum{};
-  for (const SliceRecord record : lobes) {
+std::array<Rgb, 2> FrameVertices::lightOf(const DiffuseLobes& first, const DiffuseLobes& second) {
+  static_assert(2 * kOctants == PixelPacket::kSize);
+  LobePacket packet;
+  for (size_t i = 0; i < PixelPacket::kSize; ++i) {
+    const SliceRecord record = i < kOctants ? first[i] : second[i - kOctants];
     const TransferLobe lobe = unpack(record);
-    const float size = length(lobe.r);
-    if (lobe.share == Rgb{} || size <= 0) continue;
-    sum += lobe.share * light_->lookUp(lobe.r / size, kappaOfResultant(size));
-    ++lightLookups;
+    packet.share.set(i, lobe.share), packet.r.set(i, lobe.r);
+    if (lobe.share != Rgb{}) ++lightLookups;
   }
-  return sum;
+  lookUpLight(light_->forPackets(), &packet);
+  std::array<Rgb, 2> sums{};
+  for (size_t i = 0; i < PixelPacket::kSize; ++i) sums[i / kOctants] += packet.light.get(i);
+  return sums;
 }
 
 Rgb FrameVertices::diffuseLight(SeenVertex at) {
   Rgb sum{};
   const size_t number = data_->diffuseSides.find(at.vertex, at.side);
   if (number == DiffuseSides::kNone) return sum;
-  const Vec3f outside = data_->mesh.vertices[at.vertex].n;
-  const Vec3f n = at.side == Side::back ? -outside : outside;
-  for (size_t pass = light_->firstPass; pass < light_->endPass; ++pass) {
-    const std::vector<DiffuseLobes>& lobes = data_->passes[pass].diffuse;
-    if (lobes.empty()) continue;
-    const Rgb light = lightOf(lobes[number]);
-    if (pass > 0) {
-      sum += light;
-      continue;
-    }
+  size_t pass = light_->firstPass;
+  if (pass == 0 && light_->endPass > 0 && !data_->passes[0].diffuse.empty()) {
     // Direct light: octants say which part of what would arrive does.
-    const Rgb whole = lightOf(light_->unoccluded[number]);
+    const Vec3f outside = data_->mesh.vertices[at.vertex].n;
+    const Vec3f n = at.side == Side::back ? -outside : outside;
+    const auto [light, whole] =
+        lightOf(data_->passes[0].diffuse[number], light_->unoccluded[number]);
     const Rgb exact = light_->irradiance.at(light_->toLight * n);
     for (int c = 0; c < 3; ++c)
       sum[c] += whole[c] > 0 ? std::min(light[c] / whole[c], 1.f) * exact[c] : light[c];
+  }
+  for (pass = std::max<size_t>(pass, 1); pass < light_->endPass; pass += 2) {
+    const auto lobesOf = [&](size_t of) {
+      const bool any = of < light_->endPass && !data_->passes[of].diffuse.empty();
+      return any ? data_->passes[of].diffuse[number] : DiffuseLobes{};
+    };
+    const auto [first, second] = lightOf(lobesOf(pass), lobesOf(pass + 1));
+    sum += first + second;
   }
   return sum;
 }

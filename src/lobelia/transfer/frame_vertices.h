@@ -18,7 +18,11 @@ struct FrameLight {
   std::span<const DiffuseLobes> unoccluded;  // by diffuse side; empty where nothing is diffuse
   DirectionRows toLight;                     // from the world to the light as the scene has it
   size_t firstPass = 0, endPass = 0;         // passes shown, of those there are
-  Rgb lookUp(Vec3f axis, float kappa) const { return prefiltered.lookUp(toLight * axis, kappa); }
+  PacketLight forPackets() const {
+    return {prefiltered.levels(),
+            {toLight.rows[0], toLight.rows[1], toLight.rows[2]},
+            firstPass == 0 && endPass > 0};
+  }
 };
 
 // Where a camera's rays come from, seen from p: unit. Lenses are taken to be their middles, because
@@ -57,7 +61,8 @@ class FrameVertices {
     Side side = Side::front;
   };
   Rgb diffuseLight(SeenVertex at);
-  Rgb lightOf(const DiffuseLobes& lobes);
+  // Sums of light by each of the two.
+  std::array<Rgb, 2> lightOf(const DiffuseLobes& first, const DiffuseLobes& second);
 
   const SliceLookup* lookup_ = nullptr;
   const TransferData* data_ = nullptr;

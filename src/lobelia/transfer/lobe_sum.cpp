@@ -1,5 +1,6 @@
 #include "lobelia/transfer/lobe_sum.h"
 
+#include "lobelia/bsdf/scalar_lobe.h"
 #include "lobelia/transfer/interpolation-inl.h"
 
 namespace lobelia::transfer {
@@ -17,8 +18,7 @@ TransferLobe LobeSum::lobe() const {
   if (empty()) return {};
   const float moment = length(moment_);
   if (moment <= 0) return {share_, {}};
-  const core::LobeTotals<float> totals{
-      {moment_.x, moment_.y, moment_.z}, {mirrors_.x, mirrors_.y, mirrors_.z}, lengths_, energy_};
+  const core::LobeTotals<float> totals{toCore(moment_), toCore(mirrors_), lengths_, energy_};
   const float size = core::resultantBetween(totals, moment, sqr(kMagnification));
   return {share_, moment_ * (size / moment)};
 }

@@ -13,6 +13,7 @@
 namespace lobelia {
 HWY_EXPORT(lookUpReflection);
 HWY_EXPORT(shadePacket);
+HWY_EXPORT(lookUpLight);
 }  // namespace lobelia
 
 namespace lobelia::transfer {
@@ -23,6 +24,10 @@ void lookUpReflection(const ElevationRows& table, PixelPacket* packet) {
 
 size_t shadePacket(const VertexRows& vertices, const PacketLight& light, PixelPacket* packet) {
   return HWY_DYNAMIC_DISPATCH(lobelia::shadePacket)(vertices, light, packet);
+}
+
+void lookUpLight(const PacketLight& light, LobePacket* packet) {
+  HWY_DYNAMIC_DISPATCH(lobelia::lookUpLight)(light, packet);
 }
 
 }  // namespace lobelia::transfer

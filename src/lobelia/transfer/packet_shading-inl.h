@@ -13,7 +13,7 @@
 
 LOBELIA_CORE_BEGIN
 
-using D4 = hn::CappedTag<float, 4>;  // a quarter of a row; scalars where a target has no more
+using D4 = hn::CappedTag<float, 4>;  // four numbers of a row; scalars where a target has no more
 inline constexpr size_t kAtOnce = hn::MaxLanes(D4());
 
 HWY_INLINE V3<Vf> loadVectors(const transfer::PixelPacket::Vectors& v, size_t lane) {
@@ -78,45 +78,50 @@ HWY_INLINE Vf kappaOf(Vf resultant) {
                       transfer::kMostKappa);
 }
 
-// PrefilteredLight::lookUp(); axis: in the frame of the light, unit.
+HWY_INLINE void storeWhole(Vf v, int32_t* to) { hn::Store(hn::ConvertTo(Di(), v.v), Di(), to); }
+
+// The four texels around each lane's spot in one level.
+struct LaneTexels {
+  alignas(64) int32_t level[kLanes], first[kLanes], stride[kLanes];  // in floats
+  alignas(64) float weight[4][kLanes];
+};
+// share: of this level.
+HWY_INLINE void placeTexels(const transfer::LightLevels& light, const CubeSpot<Vf>& spot, Vf level,
+                            Vf share, LaneTexels* out) {
+  const Vf size = gather(light.sizes, level), one(1.f);
+  const auto [index, u, v] = texelPlace(spot, size);
+  storeWhole(level, out->level);
+  storeWhole(size * Vf(4.f), out->stride);
+  storeWhole(index * Vf(4.f), out->first);
+  (share * (one - u) * (one - v)).store(out->weight[0]);
+  (share * u * (one - v)).store(out->weight[1]);
+  (share * (one - u) * v).store(out->weight[2]);
+  (share * u * v).store(out->weight[3]);
+}
+
+// PrefilteredLight::lookUp(); axis: in the frame of the light, of any length.
 HWY_INLINE V3<Vf> lightAt(const transfer::LightLevels& light, V3<Vf> axis, Vf kappa) {
   const Vf level =
       levelOfKappa(kappa, light.sharpest, transfer::PrefilteredLight::kLevelsPerOctave, light.last);
-  const Vf sharper = min(floor(level), Vf(light.last - 1));
-  const Vf share = level - sharper;
+  const Vf sharper = min(floor(level), Vf(light.last - 1)), share = level - sharper;
   const CubeSpot<Vf> spot = cubeSpot(axis);
-  alignas(64) int32_t number[kLanes], stride[2][kLanes], first[2][kLanes];
-  alignas(64) float weight[8][kLanes];
-  const auto whole = [](Vf v, int32_t* to)
-                         HWY_ATTR { hn::Store(hn::ConvertTo(Di(), v.v), Di(), to); };
-  whole(sharper, number);
-  for (size_t l = 0; l < 2; ++l) {
-    const Vf size =
-        lobelia::HWY_NAMESPACE::gather(light.sizes, l == 0 ? sharper : sharper + Vf(1.f));
-    const TexelPlace<Vf> place = texelPlace(spot, size);
-    whole(size * Vf(4.f), stride[l]);
-    whole(place.index * Vf(4.f), first[l]);
-    const Vf part = l == 0 ? Vf(1.f) - share : share;
-    const Vf u = place.u, v = place.v, one(1.f);
-    (part * (one - u) * (one - v)).store(weight[4 * l]);
-    (part * u * (one - v)).store(weight[4 * l + 1]);
-    (part * (one - u) * v).store(weight[4 * l + 2]);
-    (part * u * v).store(weight[4 * l + 3]);
-  }
+  LaneTexels texels[2];
+  placeTexels(light, spot, sharper, Vf(1.f) - share, &texels[0]);
+  placeTexels(light, spot, sharper + Vf(1.f), share, &texels[1]);
   const D4 d4;
   alignas(64) float sums[4 * kLanes];
   for (size_t i = 0; i < kLanes; ++i)
     for (size_t c = 0; c < 4; c += kAtOnce) {
-      const auto bilinear = [&](size_t l) HWY_ATTR {
-        const float* const t = light.texels[number[i] + static_cast<int32_t>(l)] + first[l][i] + c;
-        const float* const below = t + stride[l][i];
+      const auto bilinear = [&](const LaneTexels& of) HWY_ATTR {
+        const float* const t = light.texels[of.level[i]] + of.first[i] + c;
+        const float* const below = t + of.stride[i];
         const auto texel = [&](const float* from, size_t k) HWY_ATTR {
-          return hn::Mul(hn::Load(d4, from), hn::Set(d4, weight[4 * l + k][i]));
+          return hn::Mul(hn::Load(d4, from), hn::Set(d4, of.weight[k][i]));
         };
         return hn::Add(hn::Add(texel(t, 0), texel(t + 4, 1)),
                        hn::Add(texel(below, 2), texel(below + 4, 3)));
       };
-      hn::Store(hn::Add(bilinear(0), bilinear(1)), d4, sums + 4 * i + c);
+      hn::Store(hn::Add(bilinear(texels[0]), bilinear(texels[1])), d4, sums + 4 * i + c);
     }
   return loadQuad(sums).v;
 }
@@ -130,7 +135,7 @@ struct VisibleBetween {
 HWY_INLINE VisibleBetween visibleBetween(const transfer::VisibleRow* rows, const LaneVertices& at,
                                          V3<Vf> r) {
   constexpr size_t kStride = sizeof(transfer::VisibleRow) / sizeof(float);
-  const float* const first = &rows->share.x;
+  const auto* const first = reinterpret_cast<const float*>(rows);
   const Vf size = lengthOf(r), zero(0.f);
   const V3<Vf> up{zero, zero, Vf(1.f)};
   VisibleBetween out;
@@ -208,15 +213,15 @@ HWY_INLINE V3<Vf> bouncedLight(const transfer::VertexRows& vertices,
                                const transfer::PixelPacket& packet, size_t lane, size_t* lookups) {
   const LaneVertices at = verticesOf(packet, lane);
   V3<Vf> sum = noVector();
-  bool any_ = false;
+  bool bounced = false;
   for (size_t v = 0; v < 3; ++v)
-    for (size_t i = 0; i < kLanes; ++i) any_ = any_ || vertices.hasLobes[at.slot[v][i]] != 0;
-  if (!any_) return sum;
+    for (size_t i = 0; i < kLanes; ++i) bounced = bounced || vertices.hasLobes[at.slot[v][i]] != 0;
+  if (!bounced) return sum;
   constexpr size_t kRow = sizeof(transfer::LobeRow) / sizeof(float);
   const size_t stride = kRow * vertices.lobeCount;
   const Vf zero(0.f);
   for (size_t c = 0; c < vertices.lobeCount; ++c) {
-    const float* const rows = &vertices.lobes->share.x + kRow * c;
+    const float* const rows = reinterpret_cast<const float*>(vertices.lobes) + kRow * c;
     const Quad shares = quadBetween(rows, stride, at);
     const Mf lit = shares.w > zero;
     if (!any(lit)) continue;
@@ -239,22 +244,36 @@ HWY_INLINE V3<Vf> bouncedLight(const transfer::VertexRows& vertices,
 inline size_t shadePacket(const transfer::VertexRows& vertices, const transfer::PacketLight& light,
                           transfer::PixelPacket* packet) {
   size_t lookups = 0;
-  for (size_t lane = 0; lane < transfer::PixelPacket::kSize; lane += kLanes) {
+  for (size_t lane = 0; lane < packet->count; lane += kLanes) {
+    size_t found = 0;  // by a register
     V3<Vf> sum = loadVectors(packet->emitted, lane);
-    const Quad diffuse = quadBetween(&vertices.diffuse->light.x, 4, verticesOf(*packet, lane));
+    const Quad diffuse =
+        quadBetween(reinterpret_cast<const float*>(vertices.diffuse),
+                    sizeof(transfer::LightRow) / sizeof(float), verticesOf(*packet, lane));
     sum = sum + loadVectors(packet->diffuse, lane) * diffuse.v;
     if (packet->lobeCount > 0) {
-      if (light.direct) sum = sum + directLight(vertices, light, *packet, lane, &lookups);
+      if (light.direct) sum = sum + directLight(vertices, light, *packet, lane, &found);
       sum = sum + loadVectors(packet->glossy, lane) *
-                      bouncedLight(vertices, light, *packet, lane, &lookups);
+                      bouncedLight(vertices, light, *packet, lane, &found);
     }
     storeVectors(sum, lane, &packet->radiance);
+    lookups += found * std::min(kLanes, packet->count - lane);
   }
-  return lookups / (transfer::PixelPacket::kSize / kLanes);
+  return lookups;
+}
+
+inline void lookUpLight(const transfer::PacketLight& light, transfer::LobePacket* packet) {
+  for (size_t lane = 0; lane < transfer::PixelPacket::kSize; lane += kLanes) {
+    const V3<Vf> r = loadVectors(packet->r, lane);
+    const Vf size = lengthOf(r), zero(0.f);
+    const V3<Vf> found =
+        loadVectors(packet->share, lane) * lightAt(light.levels, toLight(light, r), kappaOf(size));
+    storeVectors(selectVector(size > zero, found, noVector()), lane, &packet->light);
+  }
 }
 
 inline void lookUpReflection(const transfer::ElevationRows& table, transfer::PixelPacket* packet) {
-  for (size_t lane = 0; lane < transfer::PixelPacket::kSize; lane += kLanes) {
+  for (size_t lane = 0; lane < packet->count; lane += kLanes) {
     const V3<Vf> n = loadVectors(packet->n, lane), wo = loadVectors(packet->wo, lane);
     const SummaryBetween<Vf> own = summaryBetween(table, dot(n, wo), n, wo);
     storeVectors(own.diffuse, lane, &packet->diffuse);

@@ -2,6 +2,9 @@
 // vertices around them.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "lobelia/transfer/elevation_rows.h"
 #include "lobelia/transfer/prefiltered_light.h"
 #include "lobelia/transfer/visible_part.h"
@@ -34,20 +37,23 @@ struct alignas(16) LightRow {
   Rgb light{};
   float unused = 0;
 };
+// Registers read them by fours of floats.
+static_assert(sizeof(LobeRow) == 12 * sizeof(float) && sizeof(VisibleRow) == 12 * sizeof(float));
+static_assert(sizeof(LightRow) == 4 * sizeof(float));
 
 // By slot of a vertex.
 struct VertexRows {
-  const VisibleRow* visible;
-  const LightRow* diffuse;  // radiance over albedo
-  const LobeRow* lobes;     // lobeCount for each slot
-  const uint8_t* hasLobes;  // 0: none has energy
-  size_t lobeCount;
+  const VisibleRow* visible = nullptr;
+  const LightRow* diffuse = nullptr;  // radiance over albedo
+  const LobeRow* lobes = nullptr;     // lobeCount for each slot
+  const uint8_t* hasLobes = nullptr;  // 0: none has energy
+  size_t lobeCount = 0;
 };
 
 struct PixelPacket {
   static constexpr size_t kSize = 16;
   struct alignas(64) Lanes {
-    float at[kSize];
+    float at[kSize] = {};
   };
   struct Vectors {
     Lanes x, y, z;
@@ -62,9 +68,9 @@ struct PixelPacket {
   Vectors n, wo;  // unit, world; n on wo's side
   Vectors emitted;
   Lanes weight[3];  // of the vertices around the pixel
-  uint32_t slot[3][kSize];
-  uint32_t number[kSize];  // of the pixel, for who has made the packet
-  size_t count = 0;        // lanes in use
+  uint32_t slot[3][kSize] = {};
+  uint32_t number[kSize] = {};  // of the pixel, for who has made the packet
+  size_t count = 0;             // lanes in use
 
   // As Reflection: looked up from a table by lookUpReflection(), else to be set.
   Vectors diffuse, glossy, mirror, r;
@@ -76,12 +82,19 @@ struct PixelPacket {
   // As if all lanes were in use: the others become copies of the first. Of what is above, but for
   // the result.
   void fillUp();
+  void clear() { count = 0, lobeCount = 0; }
+};
+
+// Lobes of which light is looked up, side by side: two sets of a lobe for each octant.
+struct LobePacket {
+  PixelPacket::Vectors share, r;  // as TransferLobe
+  PixelPacket::Vectors light;     // the result: share times light, 0 where r is
 };
 
 struct PacketLight {
   LightLevels levels;
-  Vec3f toLight[3];  // rows: from the world to the light
-  bool direct;       // light straight from infinity by glossy lobes
+  Vec3f toLight[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // rows: from the world to the light
+  bool direct = true;  // light straight from infinity by glossy lobes
 };
 
 }  // namespace lobelia::transfer

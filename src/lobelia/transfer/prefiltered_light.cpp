@@ -1,9 +1,11 @@
 #include "lobelia/transfer/prefiltered_light.h"
 
+#include <cassert>
 #include <cmath>
 #include <span>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/bsdf/scalar_lobe.h"
 #include "lobelia/transfer/cube_map.h"
 #include "lobelia/transfer/interpolation-inl.h"
 #include "lobelia/transfer/lump_kernels.h"
@@ -15,9 +17,6 @@ namespace {
 // 512: there their sum is smooth to within 1e-8.
 constexpr float kSharpest = 6640;
 constexpr float kWidest = 0.25f;
-// Between levels of factor 4 light from one direction would err by 25 % of its peak, of factor 2 by
-// 6 %, so by 1.5 %; light as wide as the lobe by 0.2 %.
-static_assert(PrefilteredLight::kLevelsPerOctave == 2);
 
 // Of a face, with its border. Bilinear interpolation errs by kappa (h_x^2 + h_y^2) / 8 of the peak
 // at most, where texels are h apart: 2 / 1.2664 / n in the middle of a face, the worst place. Light
@@ -86,6 +85,7 @@ PrefilteredLight::PrefilteredLight(const relight::DistantLight& light) {
     level.size = sizeOf(kappa);
     if (kappa <= kWidest) break;
   }
+  assert(6 * sqr(static_cast<float>(levels_[0].size)) < 0x1p22f);  // texels are numbered by floats
   // Side by side, because each begins with what one thread does: sorting the powers.
   parallelFor(levels_.size(), 1, [&](size_t l) { fill(light, &levels_[l]); });
   for (const Level& level : levels_) {
@@ -130,7 +130,7 @@ float PrefilteredLight::levelOf(float kappa) const {
 Rgb PrefilteredLight::lookUpAt(Vec3f axis, float level) const {
   const auto sharper = static_cast<size_t>(level);
   const float share = level - static_cast<float>(sharper);
-  const core::CubeSpot<float> spot = core::cubeSpot<float>({axis.x, axis.y, axis.z});
+  const core::CubeSpot<float> spot = core::cubeSpot(toCore(axis));
   float sum[4] = {};
   const auto add = [&](const Level& from, float weight) {
     const auto [index, u, v] = core::texelPlace(spot, static_cast<float>(from.size));

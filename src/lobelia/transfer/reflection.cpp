@@ -94,9 +94,7 @@ Reflection summaryOf(const Bsdf& bsdf, Vec3f wo) {
 }
 
 Vec3f turned(Vec3f v, Vec3f from, Vec3f to) {
-  const core::V3<float> out =
-      core::turnedWith<float>({v.x, v.y, v.z}, {from.x, from.y, from.z}, {to.x, to.y, to.z});
-  return {out.x, out.y, out.z};
+  return fromCore(core::turnedWith(toCore(v), toCore(from), toCore(to)));
 }
 
 }  // namespace lobelia::transfer

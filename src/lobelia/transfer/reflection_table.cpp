@@ -226,17 +226,15 @@ float ReflectionTable::sharpest() const {
 
 namespace {
 
-core::V3<float> v3(Vec3f v) { return {v.x, v.y, v.z}; }
-Vec3f vec(core::V3<float> v) { return {v.x, v.y, v.z}; }
-
 core::SummaryBetween<float> summaryOf(const ElevationRows& rows, float cosine, Vec3f n, Vec3f wo,
                                       Reflection* out) {
-  const core::SummaryBetween<float> summary = core::summaryBetween(rows, cosine, v3(n), v3(wo));
+  const core::SummaryBetween<float> summary =
+      core::summaryBetween(rows, cosine, toCore(n), toCore(wo));
   out->n = n;
-  out->mirror = vec(summary.mirror);
-  out->diffuse = vec(summary.diffuse);
-  out->glossy = vec(summary.glossy);
-  out->r = vec(summary.r);
+  out->mirror = fromCore(summary.mirror);
+  out->diffuse = fromCore(summary.diffuse);
+  out->glossy = fromCore(summary.glossy);
+  out->r = fromCore(summary.r);
   out->count = 0;
   return summary;
 }
@@ -257,8 +255,8 @@ void ReflectionTable::lookUp(float cosine, Vec3f n, Vec3f wo, Reflection* out) c
   const ElevationRows nodes = rows();
   const core::SummaryBetween<float> summary = summaryOf(nodes, cosine, n, wo, out);
   for (int j = 0; j < lobeCount_; ++j) {
-    const core::LobeBetween<float> lobe = core::lobeBetween(nodes, j, summary, v3(n));
-    out->lobes[static_cast<size_t>(j)] = {vec(lobe.axis), lobe.kappa, vec(lobe.alpha)};
+    const core::LobeBetween<float> lobe = core::lobeBetween(nodes, j, summary, toCore(n));
+    out->lobes[static_cast<size_t>(j)] = {fromCore(lobe.axis), lobe.kappa, fromCore(lobe.alpha)};
   }
   out->count = lobeCount_;
 }

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "lobelia/base/parallel.h"
@@ -248,6 +249,8 @@ TransferData scatterTransfer(const Tracer& tracer, TransferMesh mesh,
   if (raysPerSlice < 1 || raysPerSlice > kMostRays)
     throw UsageError(
         fmt::format("{} rays per slice: must be from 1 to {}", raysPerSlice, kMostRays));
+  assert(!only ||
+         only->size() == mesh.vertices.size() * GeodesicGrid(settings.directionLevel).count());
   const StageTimer timer(context, "scatter");
   const Scene& scene = tracer.scene();
   TransferData data;

@@ -1,5 +1,5 @@
-// The slices that frames of some cameras look up: about nine of each vertex' hundreds, which is
-// what of transfer has to be made where nothing but these frames is to be judged.
+// The slices that frames of some cameras look up: three of each vertex' hundreds for a
+// camera, which is what of transfer has to be made where nothing but these frames is to be judged.
 #pragma once
 
 #include <span>
