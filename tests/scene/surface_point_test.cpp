@@ -83,6 +83,26 @@ TEST(SurfacePoint, DegenerateUvsFallBack) {
   EXPECT_TRUE(isFinite(at.frame.s));
 }
 
+TEST(SurfaceNormals, AreThoseOfTheSurfacePoint) {
+  for (const bool smooth : {false, true})
+    for (const bool flipped : {false, true})
+      for (const Vec3d scale : {Vec3d(1, 1, 1), Vec3d(-1, 2, 1), Vec3d(1, 0.2, 3)}) {
+        Scene s;
+        Mesh mesh = sphereMesh(8, 5);
+        if (!smooth) mesh.normals.clear();
+        mesh.triangles.emplace_back(0u, 0u, 1u);  // degenerate
+        place(s, mesh, scaling(scale));
+        s.instances[0].flipNormals = flipped;
+        for (uint32_t t = 0; t < s.meshes[0].triangles.size(); ++t) {
+          const Hit hit{1, 0.2f, 0.5f, 0, t};
+          const SurfacePoint at = surfacePoint(s, hit);
+          const SurfaceNormals normals = surfaceNormals(s, hit);
+          EXPECT_EQ(normals.ng, at.ng) << t;
+          EXPECT_EQ(normals.n, at.frame.n) << t;
+        }
+      }
+}
+
 TEST(SurfacePoint, TinyAndDegenerateTrianglesGiveFiniteNormals) {
   Scene s;
   Mesh mesh = squareMesh();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/transfer/prefiltered_light.h"
 #include "lobelia/transfer/reflection.h"
 #include "transfer/simple_data.h"
 
@@ -100,6 +101,41 @@ TEST(TransferFrame, UnoccludedIsTheBrdfAtThePixel) {
   EXPECT_GE(stage.context.statistics.count("vertices_merged"), 4u);
   EXPECT_LE(stage.context.statistics.count("vertices_merged"), 16u);
   EXPECT_EQ(stage.context.statistics.count("nonfinite"), 0u);
+}
+
+TEST(TransferFrame, WithoutTablesIsTheReflectionAtThePixel) {
+  // Shiny on the left, dull on the right: pixels of a packet have different numbers of lobes.
+  Stage stage(kShiny);
+  stage.scene.images.push_back({"specular", 2, 1, 1, {0.8f, 0}});
+  Texture texture;
+  texture.type = TextureType::bitmap;
+  texture.image = {0};
+  texture.filter = Filter::nearest;
+  stage.scene.textures.push_back(texture);
+  Material& material = stage.scene.materials[stage.scene.instances[0].material.index];
+  material.specular = TextureHandle{0};
+  stage.data = test::simpleData(stage.scene);
+  stage.addSun({0.1f, 1, 0.6f}, {3, 2, 1});
+  stage.addSky({0.1f, 0.2f, 0.3f});
+  stage.start();
+  ASSERT_FALSE(ReflectionTables(stage.scene).has(stage.scene.instances[0].material));
+  const PrefilteredLight light(relight::distantLight(stage.scene));
+  const Film film = stage.film({});
+  int shiny = 0, dull = 0;
+  stage.forHits([&](size_t pixel, Vec3f p, Vec3f wo) {
+    const auto hit = stage.tracer->intersect({p + wo, -wo, 0, 2});
+    ASSERT_TRUE(hit);
+    const Reflection own =
+        reflectionOf(makeBsdf(stage.scene, surfacePoint(stage.scene, *hit), wo, 0), wo);
+    Rgb expected{};
+    for (size_t i = 0; i < static_cast<size_t>(own.count); ++i)
+      expected += own.lobes[i].alpha * light.lookUp(own.lobes[i].axis, own.lobes[i].kappa);
+    EXPECT_LT(maxComponent(film.rgb(pixel) - expected), 1e-3f) << p.x;
+    EXPECT_LT(maxComponent(expected - film.rgb(pixel)), 1e-3f) << p.x;
+    ++(own.count > 0 ? shiny : dull);
+  });
+  EXPECT_GT(shiny, 100);
+  EXPECT_GT(dull, 100);
 }
 
 TEST(TransferFrame, SharesOfAllPassesAddUpUnderAConstantSky) {
