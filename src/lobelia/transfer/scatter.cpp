@@ -25,8 +25,7 @@
 namespace lobelia::transfer {
 namespace {
 
-constexpr size_t kBlock = 64;         // vertices
-constexpr float kLeastShare = 1e-3f;  // as where light is gathered (gather_block.cpp)
+constexpr size_t kBlock = 64;  // vertices
 constexpr int kMostRays = 65536;
 constexpr float kLambertResultant = 2.f / 3;
 
@@ -163,8 +162,8 @@ class BlockScatter {
   // single: SampleLobe's.
   void keep(uint32_t k, float single) {
     const TransferLobe direct = glossy_.at(0, 0).lobe(glossy_.total, single);
-    if (luminance(direct.share) < 1 - kLeastShare)
-      row(0, 0).add(k, luminance(direct.share) < kLeastShare ? SliceRecord{} : pack(direct));
+    if (luminance(direct.share) < 1 - kLeastVisible)
+      row(0, 0).add(k, luminance(direct.share) < kLeastVisible ? SliceRecord{} : pack(direct));
     for (size_t j = 1; j < input_.passes; ++j)
       for (size_t c = 0; c < classes(j); ++c) {
         const TransferLobe lobe = glossy_.at(j, c).lobe(glossy_.total, single);
