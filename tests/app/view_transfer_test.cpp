@@ -168,6 +168,10 @@ TEST_F(ViewTransfer, RefusesWhatItCannotDraw) {
   failing("bounce some\nframe\n", "a number from 0, or all");
   failing("bounce 3\nframe\n", "script.txt:1: bounce 3: the data has light of 0 to 2");
   failing("method path 1\nbounce 1\nframe\n", "add a line before it: method transfer");
+  const std::string part = "has light of bounce 1 alone, but a truth has all light";
+  failing("bounce 1\nframe\ntruth 1\n", "script.txt:3: the picture " + part);
+  for (const char* compared : {"split 0.5", "false-colour error"})
+    failing(std::string("truth 1\nbounce 1\nframe\n") + compared + "\nscreenshot x.png\n", part);
   failing("false-colour cost\nframe\nscreenshot x.png\n", "transfer does not count");
   std::string scene = kBlockScene;
   scene.replace(scene.find("0.3\"/></bsdf>"), 3, "0.2");

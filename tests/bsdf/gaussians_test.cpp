@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "lobelia/base/sampling.h"
 #include "lobelia/bsdf/albedo.h"
 #include "lobelia/bsdf/bsdf.h"
+#include "lobelia/bsdf/gaussian_mixture.h"
 #include "lobelia/bsdf/layers.h"
 #include "lobelia/lobes/spherical_gaussian.h"
 #include "lobes/sphere_quadrature.h"
@@ -316,6 +319,19 @@ TEST(Expand, IsFiniteForEveryLobeAndAngle) {
       ASSERT_TRUE(std::isfinite(g.sharpness) && g.sharpness > 0);
       ASSERT_NEAR(length(g.axis), 1, 1e-4f);
     }
+  }
+}
+
+TEST(FitMixture, RefusesSamplesThatAreNotFinite) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  const LobeSample good{{0, 0, 1}, 1, 0.1f};
+  for (const LobeSample& bad :
+       {LobeSample{{kNaN, 0, 1}, 1, 0.1f}, {{0, 0, 1}, kNaN, 0.1f}, {{0, 0, 1}, 1, 1 / 0.f}}) {
+    const std::vector<LobeSample> samples{good, bad};
+    ShapePart part{{0, 0, 1}, 10, 1};
+    EXPECT_THROW(fitMixture(samples, 2, true, {&part, 1}), std::invalid_argument);
+    EXPECT_EQ(part.sharpness, 10) << "left as it was";
+    EXPECT_THROW(mixtureError(samples, {&part, 1}), std::invalid_argument);
   }
 }
 

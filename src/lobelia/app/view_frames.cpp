@@ -127,6 +127,8 @@ void ViewFrames::play(const ScriptStep& step) {
     case Kind::bounce:
       return chooseBounce(step);
     case Kind::truth:
+      if (const std::string why = whyNoTruth(partOf(view_)); !why.empty())
+        throw InputError(step.where, why);
       view_.truth = true;
       maker_.want(history_.share(), view_);
       for (int i = 0; i < step.count; ++i) truth_ = maker_.run(PictureMaker::Step::truth, context_);
@@ -236,6 +238,8 @@ void ViewFrames::screenshot(const ScriptStep& step) const {
     throw InputError(step.where,
                      "there is no truth of this picture to split it with; add a line after its "
                      "frame: truth 16");
+  if (const std::string why = whyNoTruth(picture_->part); display_.split >= 0 && !why.empty())
+    throw InputError(step.where, why);
   if (const std::string why = whyNotShown(*picture_, truth_.get(), display_.shown); !why.empty())
     throw InputError(step.where, why);
   DisplaySettings settings = display_;

@@ -308,6 +308,11 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3f wo, float uLobe, Vec2f 
   return result;
 }
 
+float throughBumps(const Bsdf& bsdf, const ShadingFrame& frame, Vec3f w, float cosPerturbed) {
+  return agrees(bsdf, frame, w, cosPerturbed) ? bumpShadow(bsdf.baseNormal, frame.bumpAlpha2, w)
+                                              : 0.f;
+}
+
 float arrivingShare(const Bsdf& bsdf, const ShadingFrame& frame, Vec3f wi) {
   const float cosShading = dot(wi, frame.n), cosGeometric = dot(wi, bsdf.ng);
   if (!(cosShading * cosGeometric > 0)) return 0;

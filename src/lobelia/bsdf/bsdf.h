@@ -47,6 +47,9 @@ inline float bumpShadow(Vec3f baseNormal, float alpha2, Vec3f w) {
   const float c2 = sqr(dot(w, baseNormal));
   return c2 > 0 ? 2 / (1 + std::sqrt(1 + alpha2 * (1 - c2) / c2)) : 0.f;
 }
+// What bumps leave of light from w in a frame, w's cosine in it given: bumpShadow(), and 0 where
+// perturbed and unperturbed normal disagree about the side.
+float throughBumps(const Bsdf& bsdf, const ShadingFrame& frame, Vec3f w, float cosPerturbed);
 // Share of the power arriving from wi that lobes in this frame scatter, as seen from the eye
 // [Veach97 eq. 5.18]: |cos| to the shading normal over that to the geometric one, with the
 // shadowing by bumps; 0 where the two normals disagree about the side.

@@ -5,7 +5,10 @@
 // none gets narrower than the solid angle of its samples.
 #include "lobelia/bsdf/gaussian_mixture.h"
 
-#include <vector>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
 
 #include "lobelia/bsdf/scalar_lobe.h"
 #include "lobelia/lobes/spherical_gaussian.h"
@@ -41,10 +44,22 @@ void scatter(std::span<const ShapePart> parts, std::span<const float> scales,
   }
 }
 
+void requireFinite(std::span<const LobeSample> samples) {
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const LobeSample& s = samples[i];
+    if (isFinite(s.w) && std::isfinite(s.weight) && std::isfinite(s.solidAngle)) continue;
+    throw std::invalid_argument(
+        fmt::format("sample {} of a lobe: direction ({}, {}, {}), weight {}, solid angle {}; all "
+                    "must be finite",
+                    i, s.w.x, s.w.y, s.w.z, s.weight, s.solidAngle));
+  }
+}
+
 }  // namespace
 
 void fitMixture(std::span<const LobeSample> samples, int iterations, bool cutOff,
                 std::span<ShapePart> parts) {
+  requireFinite(samples);
   const size_t n = parts.size();
   double total = 0;
   for (const LobeSample& s : samples) total += static_cast<double>(s.weight);
@@ -88,6 +103,7 @@ void fitMixture(std::span<const LobeSample> samples, int iterations, bool cutOff
 }
 
 float mixtureError(std::span<const LobeSample> samples, std::span<const ShapePart> parts) {
+  requireFinite(samples);
   std::array<float, kMaxParts> scales;
   for (size_t j = 0; j < parts.size(); ++j) {
     scales[j] = parts[j].share / lobes::hemisphereIntegral(parts[j].axis.z, parts[j].sharpness);

@@ -16,10 +16,12 @@ struct LobeSample {
 
 // Fits vMF lobes of which only the part above the horizon is seen, by expectation maximisation
 // from the parts given. In: shares of the whole lobes. Out: shares of the energy above the horizon.
-// cutOff: allow for what is below the horizon.
+// cutOff: allow for what is below the horizon. Throws std::invalid_argument for samples that are
+// not finite: one of them would leave a lobe without any energy.
 void fitMixture(std::span<const LobeSample> samples, int iterations, bool cutOff,
                 std::span<ShapePart> parts);
 // Estimate of the relative L1 distance between the lobe and parts with shares above the horizon.
+// Throws as fitMixture().
 float mixtureError(std::span<const LobeSample> samples, std::span<const ShapePart> parts);
 
 // Isotropic reflection (microfacets but for gtr1, and Ward) from tables that are fitted on first

@@ -47,23 +47,28 @@ class BouncePass {
   }
 
  private:
-  void slice(const Vertex& vertex, const SeeingSlice& slice) {
-    const Vec3f wo = input_.directions.directions()[slice.column];
-    const Bsdf part = glossyPart(vertex.bsdf(wo));
+  // add(weight, what arrives) for the directions of a lobe from which something does.
+  template <class Add>
+  void forArriving(const Bsdf& part, Vec3f wo, const Add& add) {
     chunks_.clear();
     for (const uint32_t c : weights_.find(part, wo))
       if (arrivals_.lanes(c) != 0) chunks_.push_back(c);
-    if (chunks_.empty() || !(slice.weight > 0)) return;
     const float* w = weights_.evaluate(part, wo, chunks_);
-    std::array<Numbers, kMostClasses + 1> totals{};
     for (size_t j = 0; j < chunks_.size(); ++j, w += kLanes) {
       const Incoming* in = arrivals_.of(chunks_[j]);
-      for (uint32_t lanes = arrivals_.lanes(chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
-        const auto l = static_cast<size_t>(std::countr_zero(lanes));
-        addTo(&totals[static_cast<size_t>(in->narrowClass)], w[l], in->narrow);
-        addTo(&totals[classes_], w[l], in->broad);
-      }
+      for (uint32_t lanes = arrivals_.lanes(chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in)
+        add(w[std::countr_zero(lanes)], *in);
     }
+  }
+
+  void slice(const Vertex& vertex, const SeeingSlice& slice) {
+    const Vec3f wo = input_.directions.directions()[slice.column];
+    if (!(slice.weight > 0)) return;
+    std::array<Numbers, kMostClasses + 1> totals{};
+    forArriving(glossyPart(vertex.bsdf(wo)), wo, [&](float weight, const Incoming& in) {
+      addTo(&totals[static_cast<size_t>(in.narrowClass)], weight, in.narrow);
+      addTo(&totals[classes_], weight, in.broad);
+    });
     for (size_t c = 0; c <= classes_; ++c) {
       const TransferLobe lobe = lobeOf(totals[c], slice.weight);
       if (!isFinite(lobe.share) || !isFinite(lobe.r)) {
@@ -79,19 +84,10 @@ class BouncePass {
     DiffuseLobes lobes{};
     if (all > 0 && arrivals_.any()) {
       std::array<Numbers, kOctants> octants{};
-      const Bsdf part = diffusePart(vertex.bsdf(wo));
-      chunks_.clear();
-      for (const uint32_t c : weights_.find(part, wo))
-        if (arrivals_.lanes(c) != 0) chunks_.push_back(c);
-      const float* w = weights_.evaluate(part, wo, chunks_);
-      for (size_t j = 0; j < chunks_.size(); ++j, w += kLanes) {
-        const Incoming* in = arrivals_.of(chunks_[j]);
-        for (uint32_t lanes = arrivals_.lanes(chunks_[j]); lanes != 0; lanes &= lanes - 1, ++in) {
-          const auto l = static_cast<size_t>(std::countr_zero(lanes));
-          addTo(&octants[octantOf(in->narrow)], w[l], in->narrow);
-          addTo(&octants[octantOf(in->broad)], w[l], in->broad);
-        }
-      }
+      forArriving(diffusePart(vertex.bsdf(wo)), wo, [&](float weight, const Incoming& in) {
+        addTo(&octants[octantOf(in.narrow)], weight, in.narrow);
+        addTo(&octants[octantOf(in.broad)], weight, in.broad);
+      });
       for (size_t o = 0; o < kOctants; ++o) {
         const TransferLobe lobe = lobeOf(octants[o], all);
         if (isFinite(lobe.share) && isFinite(lobe.r))

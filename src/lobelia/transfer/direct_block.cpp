@@ -137,14 +137,14 @@ class DirectPass {
       ++counts_.nonFinite;
       return;
     }
-    if (all <= 0 || seen >= (1 - kLeastShare) * all) {
+    if (all <= 0 || seen >= (1 - kLeastVisible) * all) {
       ++counts_.unoccluded;
       return;
     }
     const float share = seen / all;
     out_.slices.push_back({k, sums.total(sums.cells)});
     columns_.push_back(k);
-    records_.push_back(share < kLeastShare ? SliceRecord{} : pack({Rgb(share), sum / seen}));
+    records_.push_back(share < kLeastVisible ? SliceRecord{} : pack({Rgb(share), sum / seen}));
   }
 
   void diffuse(const Vertex& vertex, Vec3f wo) {

@@ -7,10 +7,6 @@
 
 namespace lobelia::transfer {
 
-// Slices of which less than this is in the way are taken for whole, and shares of a bounce below
-// it for nothing: a thousandth of a surface's own reflection.
-inline constexpr float kLeastShare = 1e-3f;
-
 inline constexpr size_t kLanes = relight::kChunk;
 
 // Sums of what arrives along rays, for the lobe that it becomes.

@@ -21,14 +21,6 @@ Vec2f latticePoint(uint32_t i, uint32_t count) {
   return {(static_cast<float>(i) + 0.5f) / n, (static_cast<float>(reversed) + 0.5f) / n};
 }
 
-// What a bump or normal map leaves of light from w, local.z being its cosine in the frame
-// (bsdf/bsdf.cpp has the same).
-float throughBumps(const Bsdf& bsdf, const ShadingFrame& frame, Vec3f w, float cosine) {
-  if (!frame.perturbed) return 1;
-  if (!(dot(w, bsdf.baseNormal) * cosine > 0)) return 0;
-  return bumpShadow(bsdf.baseNormal, frame.bumpAlpha2, w);
-}
-
 // Calls add(w, weight, solidAngle) for the points of a glossy lobe.
 template <class Add>
 void forEachPoint(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, uint32_t count, const Add& add) {

@@ -3,42 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
 #include <optional>
 
 #include "lobelia/base/parallel.h"
 #include "lobelia/relight/visibility_data.h"
 #include "lobelia/transfer/adaptive_mesh.h"
+#include "lobelia/transfer/block_loop.h"
 #include "lobelia/transfer/block_store.h"
 #include "lobelia/transfer/buried_vertices.h"
 #include "lobelia/transfer/gather_block.h"
 #include "lobelia/transfer/memory_budget.h"
+#include "lobelia/transfer/ray_plan.h"
 
 namespace lobelia::transfer {
 namespace {
 
 constexpr size_t kPilots = 16;  // blocks of a pass that are made before all others
 constexpr size_t kBlock = 256;  // vertices
-
-// Grids of rays, as fine as a lobe needs: its solid angle, about 4 pi / kappa, has 38 rays or more,
-// evenly spread, where the paper has 144 at random. Lobes sharper than kappa 1,078 have fewer.
-constexpr int kCoarsestRays = 5, kFinestRays = 6;
-int rayLevelFor(float kappa) {
-  int level = kCoarsestRays;
-  while (level < kFinestRays && 10 * (1 << 2 * level) < static_cast<int>(38 * kappa)) ++level;
-  return level;
-}
-
-std::vector<RaySphere> raySpheres(int level, const GeodesicGrid& directions) {
-  std::vector<RaySphere> spheres;
-  if (level > 0) {
-    spheres.emplace_back(level, directions);
-  } else {
-    for (int l = kCoarsestRays; l <= kFinestRays; ++l) spheres.emplace_back(l, directions);
-  }
-  return spheres;
-}
 
 std::vector<uint32_t> instanceOfTriangles(const relight::SampleMesh& mesh) {
   std::vector<uint32_t> out;
@@ -56,19 +38,20 @@ class Precomputation {
         budget_(settings.memoryBytes),
         tables_(tracer.scene()),
         directions_(settings.directionLevel),
-        rays_(raySpheres(settings.rayLevel, directions_)),
         store_(settings, tracer.scene(), context) {}
 
   TransferData run() {
     makeMesh();
     instanceOf_ = instanceOfTriangles(data_.mesh.mesh);
-    raysOf_ = raysOfVertices();
-    const std::vector<const RayCells*> cellsOf = cellsOfVertices();
+    // Classes need rays one by one, each of which has its own.
+    const RayPlan rays(settings_.rayLevel, settings_.classCount == 1, directions_, tracer_.scene(),
+                       tables_, data_.mesh.vertices);
     data_.directionLevel = settings_.directionLevel;
     data_.classCount = settings_.classCount;
     const SliceLookup lookup(tracer_.scene(), data_, tables_);
-    GatherInput input{tracer_, rays_,  raysOf_, cellsOf,     directions_, tables_,
-                      data_,   lookup, nullptr, instanceOf_, {},          anyDiffuse_};
+    GatherInput input{tracer_, rays.spheres(), rays.sphereOf(), rays.cellsOf(), directions_,
+                      tables_, data_,          lookup,          nullptr,        instanceOf_,
+                      {},      anyDiffuse_};
     blocks_ = (data_.mesh.vertices.size() + kBlock - 1) / kBlock;
     store_.setSize(blocks_, directions_.count());
     direct(input);
@@ -102,30 +85,6 @@ class Precomputation {
     context_.statistics.addCount("vertices", data_.mesh.vertices.size());
   }
 
-  std::vector<uint8_t> raysOfVertices() const {
-    std::vector<uint8_t> out;
-    for (const TransferVertex& v : data_.mesh.vertices) {
-      const float kappa = tables_.sharpest(tracer_.scene().instances[v.instance].material);
-      out.push_back(rays_.size() == 1 ? uint8_t{0}
-                                      : static_cast<uint8_t>(rayLevelFor(kappa) - kCoarsestRays));
-    }
-    return out;
-  }
-
-  // By vertex, as GatherInput has them. Classes need rays one by one, each of which has its own.
-  std::vector<const RayCells*> cellsOfVertices() {
-    std::vector<const RayCells*> out(raysOf_.size(), nullptr);
-    if (settings_.classCount > 1) return out;
-    for (const RaySphere& sphere : rays_) cells_.emplace_back(sphere, directions_);
-    for (size_t v = 0; v < out.size(); ++v) {
-      const float kappa =
-          tables_.sharpest(tracer_.scene().instances[data_.mesh.vertices[v].instance].material);
-      const RayCells& cells = cells_[raysOf_[v]];
-      if (cellsSuffice(cells.rayOf.size(), kappa)) out[v] = &cells;
-    }
-    return out;
-  }
-
   size_t end(size_t block) const {
     return std::min((block + 1) * kBlock, data_.mesh.vertices.size());
   }
@@ -137,50 +96,22 @@ class Precomputation {
                        anyDiffuse_ ? sides.front(last) - sides.front(first) : 0);
   }
 
-  static size_t blocksTogether() {
-    return std::max<size_t>(8 * static_cast<size_t>(threadCount()), 1);
-  }
-
-  // Blocks one after the other, as many at a time as there are threads; what they give is taken in
-  // their order. A few from all over the mesh are made before all others: they tell whether there
-  // is memory for the rest. make(block) -> BlockPass.
+  // make(block) -> BlockPass. The pilots tell whether there is memory for the rest.
   template <class Make>
   void forBlocks(const char* stage, const Make& make) {
     addPass();
-    std::atomic<size_t> done{0};
-    const size_t together = blocksTogether();
-    const auto madeAt = [&](const auto& blockOf, size_t count) {
-      std::vector<BlockPass> made(count);
-      parallelFor(count, 1, [&](size_t i) {
-        if (context_.cancelled()) return;
-        made[i] = make(blockOf(i));
-        context_.progress(stage, static_cast<double>(++done) / static_cast<double>(blocks_));
-      });
-      if (context_.cancelled()) throw Cancelled{};
-      for (const BlockPass& block : made)
-        mostBlockBytes_ = std::max<uint64_t>(mostBlockBytes_, block.byteCount());
-      return made;
-    };
     const MemoryUse before = memoryUse();
-    const size_t pilots = blocks_ > 2 * kPilots ? kPilots : 0;
-    const auto pilotAt = [&](size_t i) { return i * blocks_ / pilots; };
-    std::vector<BlockPass> pilot = madeAt(pilotAt, pilots);
-    if (pilots > 0) requireMemory(stage, before, pilot, pilots);
-    size_t used = 0;  // pilots
-    std::vector<size_t> open;
-    for (size_t first = 0; first < blocks_; first += together) {
-      const size_t count = std::min(together, blocks_ - first);
-      open.clear();
-      for (size_t b = first, p = used; b < first + count; ++b)
-        if (p < pilots && pilotAt(p) == b)
-          ++p;
-        else
-          open.push_back(b);
-      std::vector<BlockPass> made = madeAt([&](size_t i) { return open[i]; }, open.size());
-      for (size_t b = first, i = 0; b < first + count; ++b)
-        take(used < pilots && pilotAt(used) == b ? std::move(pilot[used++]) : std::move(made[i++]));
-      requireMemory(stage, before, std::span(pilot).subspan(used), first + count + pilots - used);
-    }
+    BlockLoop<BlockPass> loop(stage, blocks_, blocks_ > 2 * kPilots ? kPilots : 0, context_);
+    loop.run(
+        make, [&](BlockPass block) { take(std::move(block)); },
+        [&](std::span<const BlockPass> waiting, size_t done) {
+          for (const BlockPass& block : waiting) noteSize(block);
+          requireMemory(stage, before, waiting, done);
+        });
+  }
+
+  void noteSize(const BlockPass& block) {
+    mostBlockBytes_ = std::max<uint64_t>(mostBlockBytes_, block.byteCount());
   }
 
   // Of a scene without surfaces, too: its rows are none, but they are there.
@@ -196,6 +127,7 @@ class Precomputation {
   }
 
   void take(BlockPass block) {
+    noteSize(block);
     // Of the pass under way, which nobody reads before it is whole.
     TransferPass& pass = data_.passes.back();
     const size_t vertices = data_.mesh.vertices.size();
@@ -330,12 +262,9 @@ class Precomputation {
   const MemoryBudget budget_;
   const ReflectionTables tables_;
   const GeodesicGrid directions_;
-  const std::vector<RaySphere> rays_;
-  std::vector<RayCells> cells_;  // of rays_
   BlockStore store_;
   TransferData data_;
   std::vector<uint32_t> instanceOf_;  // by triangle of the scene
-  std::vector<uint8_t> raysOf_;       // by vertex
   bool anyDiffuse_ = false;
   size_t blocks_ = 0;
   uint64_t mostBlockBytes_ = 0;  // of a block of a pass, before it is taken

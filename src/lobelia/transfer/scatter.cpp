@@ -16,8 +16,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "lobelia/base/parallel.h"
 #include "lobelia/relight/visibility_data.h"
+#include "lobelia/transfer/block_loop.h"
 #include "lobelia/transfer/buried_vertices.h"
 #include "lobelia/transfer/gather_block.h"
 #include "lobelia/transfer/sample_lobe.h"
@@ -26,8 +26,7 @@
 namespace lobelia::transfer {
 namespace {
 
-constexpr size_t kBlock = 64;         // vertices
-constexpr float kLeastShare = 1e-3f;  // as where light is gathered (gather_block.cpp)
+constexpr size_t kBlock = 64;  // vertices
 constexpr int kMostRays = 65536;
 constexpr float kLambertResultant = 2.f / 3;
 
@@ -164,8 +163,8 @@ class BlockScatter {
   // single: SampleLobe's.
   void keep(uint32_t k, float single) {
     const TransferLobe direct = glossy_.at(0, 0).lobe(glossy_.total, single);
-    if (luminance(direct.share) < 1 - kLeastShare)
-      row(0, 0).add(k, luminance(direct.share) < kLeastShare ? SliceRecord{} : pack(direct));
+    if (luminance(direct.share) < 1 - kLeastVisible)
+      row(0, 0).add(k, luminance(direct.share) < kLeastVisible ? SliceRecord{} : pack(direct));
     for (size_t j = 1; j < input_.passes; ++j)
       for (size_t c = 0; c < classes(j); ++c) {
         const TransferLobe lobe = glossy_.at(j, c).lobe(glossy_.total, single);
@@ -216,28 +215,23 @@ void append(MadeBlock block, TransferData* data) {
   data->reflection.append(block.passes[0].reflection);
 }
 
-// Blocks as many at a time as there are threads; what they give is taken in their order.
 BlockCounts scatterBlocks(const ScatterInput& input, Context& context, TransferData* data) {
   BlockCounts counts;
-  const size_t vertices = input.mesh.vertices.size(), blocks = (vertices + kBlock - 1) / kBlock;
-  const auto together = static_cast<size_t>(8 * threadCount());
-  for (size_t first = 0; first < blocks; first += together) {
-    std::vector<MadeBlock> made(std::min(together, blocks - first));
-    parallelFor(made.size(), 1, [&](size_t i) {
-      if (context.cancelled()) return;
-      BlockScatter block(input, &made[i].passes, &made[i].counts);
-      const size_t begin = (first + i) * kBlock, end = std::min(begin + kBlock, vertices);
-      for (size_t v = begin; v < end; ++v) block.add(v);
-      made[i].counts.rays = block.rays();
-    });
-    if (context.cancelled()) throw Cancelled{};
-    for (MadeBlock& block : made) {
-      counts.add(block.counts);
-      append(std::move(block), data);
-    }
-    context.progress("scatter",
-                     static_cast<double>(first + made.size()) / static_cast<double>(blocks));
-  }
+  const size_t vertices = input.mesh.vertices.size();
+  BlockLoop<MadeBlock> loop("scatter", (vertices + kBlock - 1) / kBlock, 0, context);
+  loop.run(
+      [&](size_t b) {
+        MadeBlock made;
+        BlockScatter block(input, &made.passes, &made.counts);
+        for (size_t v = b * kBlock; v < std::min((b + 1) * kBlock, vertices); ++v) block.add(v);
+        made.counts.rays = block.rays();
+        return made;
+      },
+      [&](MadeBlock block) {
+        counts.add(block.counts);
+        append(std::move(block), data);
+      },
+      [](auto...) {});
   return counts;
 }
 

@@ -1,5 +1,7 @@
 #include "lobelia/app/studio/display_picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -177,10 +179,20 @@ std::string whyNotShown(const Picture& picture, const Picture* truth, Shown show
     return "transfer does not count what each pixel costs; choose another method or another colour";
   if (shown == Shown::cost && !picture.film.layers.contains("cost"))
     return "the picture has not counted its cost; choose this colour before it is drawn";
+  if (shown == Shown::error && truth != nullptr && !picture.part.empty())
+    return whyNoTruth(picture.part);
   if (shown == Shown::error && truth == nullptr && !picture.film.layers.contains("error"))
     return "there is neither a truth of this picture nor a second pass to know the error from; let "
            "the truth be drawn after it";
   return "";
+}
+
+std::string whyNoTruth(const std::string& part) {
+  if (part.empty()) return "";
+  return fmt::format(
+      "the picture has {} alone, but a truth has all light; let the picture have it, too: in a "
+      "script `bounce all` before the frame, or leave --component out",
+      part);
 }
 
 std::vector<uint8_t> legendColors(int count) {

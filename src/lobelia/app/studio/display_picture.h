@@ -46,6 +46,9 @@ Displayed displayPicture(const Picture& picture, const Picture* truth,
 // Why a picture cannot be shown so (it lacks what is asked for), or "".
 std::string whyNotShown(const Picture& picture, const Picture* truth, Shown shown);
 
+// Why a picture of such a part of light (Picture::part) has no truth to compare it with, or "".
+std::string whyNoTruth(const std::string& part);
+
 // Colours of a legend from the least (first) to the most: `count` times RGBA.
 std::vector<uint8_t> legendColors(int count);
 

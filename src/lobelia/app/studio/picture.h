@@ -15,6 +15,7 @@ struct Picture {
   // directions, others: rays, per sample), "samples", "error" (standard error of the luminance).
   Film film;
   std::string method;  // "cuts", "transfer", "path"...
+  std::string part;    // of light, which the picture has alone (partOf()); "": all of it
   bool quick = false;  // a first look, smaller than what was asked for
   bool white = false;  // of white surfaces (irradiance over pi)
   int passes = 1, samples = 1;

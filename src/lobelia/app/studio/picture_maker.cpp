@@ -150,6 +150,7 @@ std::shared_ptr<Picture> PictureMaker::frame(const ViewState& view, Context& con
   picture->film.layers.erase("direct");
   picture->film.layers.erase("indirect");
   picture->method = viewMethodNames()[static_cast<size_t>(view.method)];
+  picture->part = partOf(view);
   if (view.method == ViewMethod::transfer) {
     stage_.renderTransfer(camera,
                           {.spp = view.frameSpp,

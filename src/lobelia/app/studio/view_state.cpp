@@ -1,5 +1,7 @@
 #include "lobelia/app/studio/view_state.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace lobelia::app {
@@ -40,6 +42,13 @@ int depthOf(const ViewState& view) {
   if (view.white) return kDirect;
   if (view.method == ViewMethod::transfer) return view.transferDepth;
   return view.method == ViewMethod::cuts ? view.cutsDepth : view.maxDepth;
+}
+
+std::string partOf(const ViewState& view) {
+  if (!inOneGo(view.method)) return "";
+  if (view.method == ViewMethod::transfer && view.bounce >= 0)
+    return fmt::format("light of bounce {}", view.bounce);
+  return view.component == "all" ? "" : view.component + " light";
 }
 
 RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp) {

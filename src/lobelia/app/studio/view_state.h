@@ -48,6 +48,9 @@ Camera viewCamera(const ViewState& view);
 // Of the light that the method shows, as `render --max-depth` counts.
 int depthOf(const ViewState& view);
 
+// What part of light the method's pictures have alone, in words; "": all of it.
+std::string partOf(const ViewState& view);
+
 // What `render` would be told for a pass of so many samples per pixel. method: not in one go.
 RenderOptions passOptions(const ViewState& view, ViewMethod method, int spp);
 
