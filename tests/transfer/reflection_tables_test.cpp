@@ -10,6 +10,7 @@
 #include "lobelia/lobes/spherical_gaussian.h"
 #include "lobelia/transfer/geodesic_grid.h"
 #include "lobelia/transfer/lobe_moments.h"
+#include "lobelia/transfer/reflected_lobes.h"
 #include "lobelia/transfer/reflection.h"
 #include "support/box_scene.h"
 
@@ -96,11 +97,13 @@ Bsdf bsdfOf(size_t i, Vec3f wo) {
   return makeBsdf(shared().scene, point, wo, 0);
 }
 
+constexpr uint32_t kManyPoints = 16384;
+
 // Moments of all glossy lobes, by more points than tables have.
 LobeMoments exactMoments(const Bsdf& glossy, Vec3f wo) {
   LobeMoments sum;
   for (int i = 0; i < glossy.lobeCount; ++i)
-    sum.add(glossyMoments(glossy, glossy.lobes[i], wo, 16384));
+    sum.add(glossyMoments(glossy, glossy.lobes[i], wo, kManyPoints));
   return sum;
 }
 
@@ -260,6 +263,56 @@ TEST(ReflectionTables, OneSidedMaterialsReflectInFrontAlone) {
   EXPECT_EQ(r.count, 0);
   EXPECT_NEAR(r.diffuse.x, 0.4f, 1e-6f);
   EXPECT_EQ(r.n, -n);
+}
+
+// Sum of the lobes' densities times their alphas.
+float density(const Reflection& r, Vec3f d) {
+  float sum = 0;
+  for (size_t i = 0; i < static_cast<size_t>(r.count); ++i)
+    sum += luminance(r.lobes[i].alpha) * lobes::vmfPdf(r.lobes[i].axis, r.lobes[i].kappa, d);
+  return sum;
+}
+
+TEST(ReflectionTables, OfAnisotropicMaterialsAreByAzimuthToo) {
+  Scene scene;
+  Material brushed = microfacets(MaterialType::roughConductor, Distribution::ggx, 0.3f);
+  brushed.alphaU = 0.08f;
+  Material wrapped = named(MaterialType::twoSided, "both sides");
+  wrapped.a = test::addMaterial(scene, brushed);
+  for (const MaterialHandle m : {wrapped.a, test::addMaterial(scene, wrapped)})
+    test::addQuad(scene, {0, 0, 0}, {1, 0.3f, 0}, {-0.2f, 0.5f, 0.7f}, m);
+  const ReflectionTables tables(scene);
+  Rng rng(6);
+  for (int i = 0; i < 60; ++i) {
+    const auto instance = static_cast<uint32_t>(i % 2);
+    ASSERT_FALSE(tables.has(scene.instances[instance].material));
+    const SurfacePoint at = surfacePoint(scene, {0, 0.2f, 0.3f, instance, 0});
+    const Vec2f u = rng.next2D();
+    const float cosine = (0.1f + 0.9f * u.x) * (i % 4 == 1 ? -1.f : 1.f);
+    const float sine = std::sqrt(1 - cosine * cosine), phi = kTwoPi * u.y;
+    const Vec3f wo = at.frame.toWorld({sine * std::cos(phi), sine * std::sin(phi), cosine});
+    const Bsdf bsdf = makeBsdf(scene, at, wo, 0);
+    const LobeMoments exact = exactMoments(glossyPart(bsdf), wo);
+    const Reflection found = tables.reflection(scene, at, wo);
+    Reflection wanted = reflectionOf(bsdf, wo);
+    const Reflection summary = tables.summary(scene, at, wo);
+    SCOPED_TRACE(std::to_string(cosine) + " " + std::to_string(phi));
+    EXPECT_EQ(summary.glossy, found.glossy);
+    EXPECT_EQ(summary.r, found.r);
+    EXPECT_LT(length(found.mirror - wanted.mirror), 1e-5f);
+    EXPECT_LT(length(found.n - wanted.n), 1e-5f);
+    const float energy = luminance(exact.albedo);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(found.glossy[c], exact.albedo[c], 0.01f * exact.albedo[c]);
+    EXPECT_LT(length(found.r - exact.first / energy), 0.01f);
+    // The row of lobes, where it is highest: within the noise of the tables' points.
+    const Bsdf glossy = glossyPart(bsdf);
+    wanted.count = reflectedLobes(glossy, glossy.lobes[0], wo, exact, wanted.lobes, kManyPoints);
+    for (size_t j = 0; j < static_cast<size_t>(wanted.count); ++j) {
+      const Vec3f d = wanted.lobes[j].axis;
+      EXPECT_NEAR(density(found, d) / density(wanted, d), 1, 0.16) << j;
+    }
+  }
 }
 
 }  // namespace

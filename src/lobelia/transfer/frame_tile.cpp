@@ -93,8 +93,8 @@ void FrameTile::addPixel(const FrameInput& input, size_t number) {
     packet.weight[v].at[lane] = pixel.place.weight[v];
   }
   if (!tabled)
-    setReflection(reflectionOf(makeBsdf(scene, surfacePoint(scene, *pixel.hit), wo, 0), wo),
-                  &packet, lane);
+    setReflection(input.tables.reflection(scene, surfacePoint(scene, *pixel.hit), wo), &packet,
+                  lane);
   if (packet.count == PixelPacket::kSize) finish(input, table);
 }
 

@@ -58,7 +58,7 @@ class Vertex {
   bool reflection(Vec3f wo, Reflection* out) const {
     const Vec3f n = input_.data.mesh.vertices[index_].n;
     if (input_.tables.has(material())) return input_.tables.summary(material(), n, wo, out);
-    *out = summaryOf(bsdf(wo), wo);
+    *out = input_.tables.summary(input_.tracer.scene(), at_, wo);
     return luminance(out->glossy) > 0 || out->diffuse != Rgb{};
   }
   Vec3f normal() const { return input_.data.mesh.vertices[index_].n; }

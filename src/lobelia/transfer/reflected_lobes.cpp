@@ -65,12 +65,11 @@ void moveTo(const LobeMoments& moments, float part, std::span<ReflectedLobe> lob
 
 // A row of lobes for a streak: as many of about the same energy as there is room for.
 int rowAcross(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, const LobeMoments& moments,
-              std::span<ReflectedLobe> lobes) {
-  constexpr uint32_t kPoints = 256;
+              std::span<ReflectedLobe> lobes, uint32_t pointCount) {
   thread_local std::vector<LobePoint> points;
   thread_local std::vector<std::pair<float, uint32_t>> bySlope;
   points.clear(), bySlope.clear();
-  quadraturePoints(bsdf, lobe, wo, kPoints, &points);
+  quadraturePoints(bsdf, lobe, wo, pointCount, &points);
   const ShadingFrame& frame = bsdf.frameOf(lobe);
   float energy = 0;
   for (uint32_t i = 0; i < points.size(); ++i) {
@@ -108,13 +107,13 @@ ReflectedLobe reflectedLobe(const LobeMoments& moments) {
 }
 
 int reflectedLobes(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, const LobeMoments& moments,
-                   std::span<ReflectedLobe> lobes) {
+                   std::span<ReflectedLobe> lobes, uint32_t points) {
   if (!(luminance(moments.albedo) > 0)) return 0;
   if (lobe.type == LobeType::phong || static_cast<int>(lobes.size()) < fewestFor(lobe)) {
     lobes[0] = reflectedLobe(moments);
     return 1;
   }
-  if (lobe.alphaX != lobe.alphaY) return rowAcross(bsdf, lobe, wo, moments, lobes);
+  if (lobe.alphaX != lobe.alphaY) return rowAcross(bsdf, lobe, wo, moments, lobes, points);
   const ShadingFrame& frame = bsdf.frameOf(lobe);
   const Vec3f o = frame.toLocal(wo);
   const bool back = o.z < 0;

@@ -52,6 +52,10 @@ class ReflectionTables {
   bool at(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const;
   // The same without lobes, for sums of many.
   bool summary(MaterialHandle material, Vec3f n, Vec3f wo, Reflection* out) const;
+  // At a point of a material without such a table: from one by elevation and azimuth, where the
+  // material is anisotropic, has one glossy lobe and no textures, else from its Bsdf.
+  Reflection reflection(const Scene& scene, const SurfacePoint& at, Vec3f wo) const;
+  Reflection summary(const Scene& scene, const SurfacePoint& at, Vec3f wo) const;
   // Tables by number, for registers of pixels: two for each material of the scene, behind last.
   size_t tableCount() const;
   static size_t numberOf(MaterialHandle material, bool behind) {

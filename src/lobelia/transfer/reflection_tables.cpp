@@ -4,9 +4,11 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "lobelia/base/parallel.h"
+#include "lobelia/transfer/anisotropic_table.h"
 #include "lobelia/transfer/reflection_table.h"
 #include "lobelia/transfer/transfer_mesh.h"
 
@@ -34,11 +36,27 @@ bool isIsotropic(const Bsdf& bsdf) {
   return true;
 }
 
-std::unique_ptr<Sides> tablesOf(const Scene& scene, uint32_t instance) {
+using AnisotropicSides = std::array<AnisotropicTable, 2>;
+
+// One of the two, or none.
+struct Tables {
+  std::unique_ptr<Sides> byElevation;
+  std::unique_ptr<AnisotropicSides> byDirection;
+};
+Tables tablesOf(const Scene& scene, uint32_t instance) {
   const auto at = [&](Vec3f wo) { return bsdfAt(scene, instance, 0, wo); };
-  for (const float side : {1.f, -1.f})
-    if (!isIsotropic(at({0.6f, 0, 0.8f * side}))) return nullptr;
-  return std::make_unique<Sides>(Sides{ReflectionTable(at, false), ReflectionTable(at, true)});
+  bool isotropic = true, served = true;
+  for (const float side : {1.f, -1.f}) {
+    const Bsdf bsdf = at({0.6f, 0, 0.8f * side});
+    isotropic = isotropic && isIsotropic(bsdf);
+    served = served && (AnisotropicTable::isServed(bsdf) || glossyPart(bsdf).lobeCount == 0);
+  }
+  if (isotropic)
+    return {std::make_unique<Sides>(Sides{ReflectionTable(at, false), ReflectionTable(at, true)}),
+            nullptr};
+  if (!served) return {};
+  return {nullptr, std::make_unique<AnisotropicSides>(
+                       AnisotropicSides{AnisotropicTable(at, false), AnisotropicTable(at, true)})};
 }
 
 // Of an instance whose material has no table.
@@ -60,12 +78,21 @@ float sharpestOf(const Scene& scene, uint32_t instance) {
 }  // namespace
 
 struct ReflectionTables::Impl {
-  std::vector<std::unique_ptr<Sides>> tables;  // by material
-  std::vector<float> sharpest;                 // by material
+  // By material.
+  std::vector<std::unique_ptr<Sides>> tables;
+  std::vector<std::unique_ptr<AnisotropicSides>> anisotropic;
+  std::vector<float> sharpest;
+
+  const AnisotropicTable* anisotropicAt(const SurfacePoint& at, Vec3f wo) const {
+    const AnisotropicSides* const sides =
+        at.material.valid() ? anisotropic[at.material.index].get() : nullptr;
+    return sides ? &(*sides)[dot(at.frame.n, wo) < 0 ? 1 : 0] : nullptr;
+  }
 };
 
 ReflectionTables::ReflectionTables(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   impl_->tables.resize(scene.materials.size());
+  impl_->anisotropic.resize(scene.materials.size());
   std::vector<std::optional<uint32_t>> users(scene.materials.size());  // an instance each
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
@@ -74,7 +101,10 @@ ReflectionTables::ReflectionTables(const Scene& scene) : impl_(std::make_unique<
   }
   parallelFor(users.size(), 1, [&](size_t i) {
     const MaterialHandle material{static_cast<uint32_t>(i)};
-    if (users[i] && !isTextured(scene, material)) impl_->tables[i] = tablesOf(scene, *users[i]);
+    if (!users[i] || isTextured(scene, material)) return;
+    Tables tables = tablesOf(scene, *users[i]);
+    impl_->tables[i] = std::move(tables.byElevation);
+    impl_->anisotropic[i] = std::move(tables.byDirection);
   });
   std::vector<float> found(scene.instances.size());
   parallelFor(scene.instances.size(), 1, [&](size_t i) {
@@ -111,6 +141,23 @@ bool ReflectionTables::summary(MaterialHandle material, Vec3f n, Vec3f wo, Refle
   if (!table.reflects()) return false;
   table.summary(std::abs(cosine), cosine < 0 ? -n : n, wo, out);
   return true;
+}
+
+Reflection ReflectionTables::reflection(const Scene& scene, const SurfacePoint& at,
+                                        Vec3f wo) const {
+  const AnisotropicTable* const table = impl_->anisotropicAt(at, wo);
+  if (!table) return reflectionOf(makeBsdf(scene, at, wo, 0), wo);
+  Reflection out;
+  if (table->reflects()) table->lookUp(at.frame, wo, &out);
+  return out;
+}
+
+Reflection ReflectionTables::summary(const Scene& scene, const SurfacePoint& at, Vec3f wo) const {
+  const AnisotropicTable* const table = impl_->anisotropicAt(at, wo);
+  if (!table) return summaryOf(makeBsdf(scene, at, wo, 0), wo);
+  Reflection out;
+  if (table->reflects()) table->summary(at.frame, wo, &out);
+  return out;
 }
 
 size_t ReflectionTables::tableCount() const { return 2 * impl_->tables.size(); }
