@@ -25,6 +25,12 @@ std::string gallery(const std::vector<FigurePicture>& line) {
   return fmt::format("{}|\n{}|\n{}|\n", captions, rule, pictures);
 }
 
+// Scenes may be named by paths.
+std::string fileName(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '-');
+  return name;
+}
+
 }  // namespace
 
 std::set<std::string> chosenOf(const std::string& option, const std::string& list,
@@ -65,22 +71,24 @@ BenchTable& FigureReport::table(const BenchTable& empty) {
 std::string FigureReport::picture(const std::string& name, const Film& film,
                                   const ToneCurve& curve) const {
   if (folder_.empty()) return "";
-  io::writeExr(fmt::format("{}/{}.exr", folder_, name), film);
+  io::writeExr(fmt::format("{}/{}.exr", folder_, fileName(name)), film);
   return picture(name, toneMap(film, curve), film);
 }
 
 std::string FigureReport::picture(const std::string& name, const std::vector<uint8_t>& pixels,
                                   const Film& shape) const {
   if (folder_.empty()) return "";
-  io::writePng(fmt::format("{}/{}.png", folder_, name), pixels, shape.width, shape.height);
-  return fmt::format("{}.png", name);
+  const std::string file = fileName(name) + ".png";
+  io::writePng(fmt::format("{}/{}", folder_, file), pixels, shape.width, shape.height);
+  return file;
 }
 
 std::string FigureReport::drawing(const std::string& name, const std::string& svg) const {
   if (folder_.empty()) return "";
-  writeFileAtomically(fmt::format("{}/{}.svg", folder_, name),
+  const std::string file = fileName(name) + ".svg";
+  writeFileAtomically(fmt::format("{}/{}", folder_, file),
                       std::as_bytes(std::span<const char>(svg)));
-  return fmt::format("{}.svg", name);
+  return file;
 }
 
 void FigureReport::show(const std::string& tableKey, const std::string& title,

@@ -98,7 +98,8 @@ std::vector<BenchTable> benchVmf(const BenchOptions& options, Context& context) 
       if (const bool one = wants("1"), two = wants("2"), four = wants("4"); one || two || four)
         vmfError(scene, one, two, four, study);
       if (wants("3")) vmfScatter(scene, study);
-    } catch (const Cancelled&) {  // the tables have what there is
+    } catch (const Cancelled&) {
+      context.warning(fmt::format("stopped at {}: the tables have what there is so far", scene));
     }
     report.writePage(options.commandLine);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lobelia/app/bench_vmf_views.h"
+#include "lobelia/base/error.h"
 #include "lobelia/transfer/scatter.h"
 
 namespace lobelia::app {
@@ -36,7 +37,7 @@ class ScatterStudy {
     const transfer::TransferMesh& mesh = gathered.data.mesh;
     chooseSlices(gathered.data);
     const uint64_t whole = raysOfWhole(mesh);
-    if (whole == 0) return;  // nothing reflects
+    if (whole == 0) throw UsageError(fmt::format("{}: nothing in the scene reflects", name_));
     const auto raysOf = [&](int ratio) {
       return std::max(
           1, static_cast<int>(std::lround(ratio * gathered.rays / static_cast<double>(whole))));

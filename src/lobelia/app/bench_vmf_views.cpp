@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lobelia/app/bench_cuts_frames.h"
+#include "lobelia/base/error.h"
+#include "lobelia/relight/local_sources.h"
 
 namespace lobelia::app {
 namespace {
@@ -30,6 +34,13 @@ VmfViews::VmfViews(const std::string& name, const VmfStudy& study)
       study_(study),
       samples_(study.options.spp > 0 ? study.options.spp : kPathSamples),
       scene_(sceneOf(kBounces)) {
+  const std::vector<Emitter>& emitters = scene().emitters;
+  if (std::all_of(emitters.begin(), emitters.end(),
+                  [](const Emitter& e) { return relight::isLocal(e.type); }))
+    throw UsageError(
+        fmt::format("{}: pictures of transfer need light from infinity, of which the "
+                    "scene has none; add some with --environment",
+                    name));
   for (size_t v = 0; v < kViews; ++v) {
     cameras_.push_back(turnedAbout(scene_->camera(), tracer().bounds().centre(),
                                    360.0 * static_cast<double>(v) / kViews));

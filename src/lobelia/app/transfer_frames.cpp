@@ -14,7 +14,9 @@ void warnOfMissing(const Scene& scene, Context& context) {
   const auto near = std::count_if(scene.emitters.begin(), scene.emitters.end(),
                                   [](const Emitter& e) { return relight::isLocal(e.type); });
   if (near == std::ssize(scene.emitters))
-    context.warning("the scene has no light from infinity; add some with --environment or --sky");
+    context.warning(
+        "the scene has no light from infinity, which is all that transfer shows; view it with "
+        "--environment or --sky");
   if (near > 0)
     context.warning(
         fmt::format("{} of {} emitters are not at infinity: transfer shows them, but they light "

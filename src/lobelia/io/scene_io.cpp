@@ -27,7 +27,9 @@ Scene readScene(const std::string& file, const ReadSettings& settings, Context& 
   throw InputError({file, 0, 0}, "no reader knows the extension '" + extension +
                                      "'; scenes that can be read: .xml (Mitsuba 0.5 to 3), "
                                      ".pbrt and .pbrt.gz (PBRT-v4), .gltf and .glb (glTF 2.0), "
-                                     ".obj and .ply (meshes)");
+                                     ".obj and .ply (meshes); a file of `lobelia precompute` "
+                                     "goes to --data, and if `lobelia info` says this of one, it "
+                                     "is damaged");
 }
 
 // Handles of the other emitters stay valid: an environment there is replaced in its place.

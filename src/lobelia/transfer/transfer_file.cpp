@@ -91,8 +91,10 @@ TransferData load(const std::string& file, const Scene& scene) {
   const store::Reader reader(file, kTransferKind, kVersion);
   if (reader.sceneHash() != transferHash(scene)) {
     throw InputError({file},
-                     "this transfer is of another scene (or shapes, materials or textures were "
-                     "changed since); make it again with `lobelia precompute --method vmf`");
+                     "this transfer is of another scene, or of the scene with another --detail, "
+                     "--meshes, --variant, --time or -D, or shapes, materials or textures were "
+                     "changed since; give what it was made with, or make it again with `lobelia "
+                     "precompute --method vmf`");
   }
   const Head head = readHead(reader, file);
   TransferData data;

@@ -19,7 +19,7 @@ constexpr uint32_t kVersion = 3;
 constexpr const char* kParents = "parents";  // block of how many folders above were made
 
 [[noreturn]] void refuse(const std::string& file) {
-  throw InputError({file}, "this is no block of a precomputation; give --work a folder of its own");
+  throw InputError({file}, "this is no block of a precomputation; delete it, or give --work a folder of its own");
 }
 
 // By headers alone: blocks are many and large, and those that are damaged inside are found out when
