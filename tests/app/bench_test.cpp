@@ -219,6 +219,14 @@ TEST(BenchVmf, ScatteringComesNearerWithRays) {
   expectPictures(folder, "vmf", {"figure3-teapot-32-gathered"});
 }
 
+TEST(BenchVmf, WantsLightFromInfinity) {
+  const ProgramResult r =
+      runProgram("bench vmf --figures 4 --scene cornell --detail 0.05 --size 16x12");
+  EXPECT_EQ(r.exitCode, 2);
+  EXPECT_NE(r.err.find("cornell: pictures of transfer need light from infinity"), std::string::npos)
+      << r.err;
+}
+
 TEST(BenchCuts, DataAndError) {
   const TemporaryFolder folder;
   const json result = runBench(
