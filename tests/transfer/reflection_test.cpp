@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
+
 #include "bsdf/lobe_examples.h"
 #include "lobelia/base/random.h"
 #include "lobelia/base/sampling.h"
@@ -83,9 +85,9 @@ TEST(Reflection, ManyLobesShareFourPlaces) {
     bsdf.add(lobe);
   }
   const Reflection r = reflectionOf(bsdf, test::directionAt(0.7f, 0.f));
-  ASSERT_EQ(r.count, Reflection::kMostLobes);
+  ASSERT_EQ(r.count, Reflection::kFewLobes);
   Rgb sum{};
-  for (const ReflectedLobe& lobe : r.lobes) sum += lobe.alpha;
+  for (const ReflectedLobe& lobe : std::span(r.lobes).first(4)) sum += lobe.alpha;
   EXPECT_LT(length(sum - r.glossy), 1e-5f * length(sum));
   Rgb energies{};
   for (int i = 0; i < 7; ++i) energies += lobeAlbedo(bsdf.lobes[i], 0.7f);
@@ -98,10 +100,10 @@ TEST(Reflection, StreaksAreRowsOfLobes) {
     const Bsdf bsdf =
         test::single(test::microfacets(Distribution::ggx, alphaX, alphaY, Fresnel::conductor));
     const Reflection r = reflectionOf(bsdf, test::directionAt(0.9f, 0.8f));
-    ASSERT_EQ(r.count, Reflection::kMostLobes);
+    ASSERT_EQ(r.count, 10);  // twice the ratio of the roughnesses
     Rgb sum{};
     Vec3f first{}, spread{};
-    for (const ReflectedLobe& lobe : r.lobes) {
+    for (const ReflectedLobe& lobe : std::span(r.lobes).first(10)) {
       const float energy = luminance(lobe.alpha), size = lobes::meanResultant(lobe.kappa);
       sum += lobe.alpha, first += lobe.axis * (energy * size);
       for (int c = 0; c < 2; ++c) spread[c] += energy * sqr(lobe.axis[c] - r.r[c] / length(r.r));

@@ -97,11 +97,12 @@ AnisotropicTable::AnisotropicTable(const std::function<Bsdf(Vec3f wo)>& bsdfFor,
   const bool any = std::any_of(nodes.begin(), nodes.end(), [](const Node& node) {
     return node.diffuse != Rgb{} || node.glossy != Rgb{};
   });
-  if (any) nodes_ = std::move(nodes);
+  if (!any) return;
+  for (const Node& node : nodes) lobeCount_ = std::max(lobeCount_, node.count);
+  nodes_ = std::move(nodes);
 }
 
-AnisotropicTable::Node AnisotropicTable::nodeAt(const Bsdf& bsdf,
-                                                const Incidence& incidence) const {
+AnisotropicTable::Node AnisotropicTable::nodeAt(const Bsdf& bsdf, const Incidence& incidence) {
   Node node;
   node.diffuse = diffuseAlbedo(bsdf, incidence.wo);
   const Bsdf glossy = glossyPart(bsdf);
@@ -113,12 +114,12 @@ AnisotropicTable::Node AnisotropicTable::nodeAt(const Bsdf& bsdf,
   node.glossy = moments.albedo;
   node.r = incidence.partsOf(moments.first / energy);
   std::array<ReflectedLobe, kLobes> lobes;
-  const auto count = static_cast<size_t>(
+  node.count = static_cast<size_t>(
       reflectedLobes(glossy, lobe, incidence.wo, moments, lobes, kMomentPoints));
-  for (size_t j = 0; j < kLobes && count > 0; ++j) {
-    const ReflectedLobe& from = lobes[std::min(j, count - 1)];
+  for (size_t j = 0; j < kLobes && node.count > 0; ++j) {
+    const ReflectedLobe& from = lobes[std::min(j, node.count - 1)];
     node.lobes[j] = {incidence.partsOf(from.axis), 1 / std::sqrt(from.kappa),
-                     j < count ? from.alpha : Rgb{}};
+                     j < node.count ? from.alpha : Rgb{}};
   }
   return node;
 }
@@ -142,14 +143,14 @@ void AnisotropicTable::summary(const Frame& frame, Vec3f wo, Reflection* out) co
 void AnisotropicTable::lookUp(const Frame& frame, Vec3f wo, Reflection* out) const {
   const Incidence incidence(frame, wo);
   const Place place = summarize(incidence, out);
-  for (size_t j = 0; j < kLobes; ++j) {
+  for (size_t j = 0; j < lobeCount_; ++j) {
     const auto lobe = [&](size_t i) -> const LobeNode& { return nodes_[i].lobes[j]; };
     const Vec3f axis = place.sum([&](size_t i) { return lobe(i).axis; });
     const float width = place.sum([&](size_t i) { return lobe(i).width; });
     const Rgb alpha = place.sum([&](size_t i) { return lobe(i).alpha; });
     out->lobes[j] = {normalize(incidence.direction(axis)), 1 / (width * width), alpha};
   }
-  out->count = static_cast<int>(kLobes);
+  out->count = static_cast<int>(lobeCount_);
 }
 
 }  // namespace lobelia::transfer

@@ -39,14 +39,16 @@ class AnisotropicTable {
     Rgb diffuse{}, glossy{};
     Vec3f r{};
     std::array<LobeNode, kLobes> lobes;
+    size_t count = 0;
   };
   struct Incidence;  // the directions that parts are of
   struct Place;      // four nodes and their weights
   static Place placeOf(const Incidence& incidence);
-  Node nodeAt(const Bsdf& bsdf, const Incidence& incidence) const;
+  static Node nodeAt(const Bsdf& bsdf, const Incidence& incidence);
   Place summarize(const Incidence& incidence, Reflection* out) const;
 
   std::vector<Node> nodes_;  // azimuth by azimuth
+  size_t lobeCount_ = 0;     // of each, with such as have no energy
 };
 
 }  // namespace lobelia::transfer

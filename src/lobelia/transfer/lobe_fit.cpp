@@ -14,7 +14,7 @@
 namespace lobelia::transfer {
 namespace {
 
-constexpr size_t kMost = Reflection::kMostLobes;
+constexpr size_t kMost = Reflection::kFewLobes;
 constexpr double kLeastKappa = 1e-2, kLeastShare = 1e-6;
 
 struct Moment {

@@ -63,6 +63,14 @@ void moveTo(const LobeMoments& moments, float part, std::span<ReflectedLobe> lob
   }
 }
 
+// Of a streak: so many that they overlap.
+size_t lobesAcross(const Lobe& lobe) {
+  const float narrow = std::min(lobe.alphaX, lobe.alphaY);
+  const float wide = std::max(lobe.alphaX, lobe.alphaY);
+  return static_cast<size_t>(
+      std::clamp(2 * wide / narrow, float{Reflection::kFewLobes}, float{Reflection::kMostLobes}));
+}
+
 // A row of lobes for a streak: as many of about the same energy as there is room for.
 int rowAcross(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, const LobeMoments& moments,
               std::span<ReflectedLobe> lobes, uint32_t pointCount) {
@@ -113,13 +121,16 @@ int reflectedLobes(const Bsdf& bsdf, const Lobe& lobe, Vec3f wo, const LobeMomen
     lobes[0] = reflectedLobe(moments);
     return 1;
   }
-  if (lobe.alphaX != lobe.alphaY) return rowAcross(bsdf, lobe, wo, moments, lobes, points);
+  if (lobe.alphaX != lobe.alphaY) {
+    const size_t most = std::min(lobes.size(), lobesAcross(lobe));
+    return rowAcross(bsdf, lobe, wo, moments, lobes.first(most), points);
+  }
   const ShadingFrame& frame = bsdf.frameOf(lobe);
   const Vec3f o = frame.toLocal(wo);
   const bool back = o.z < 0;
-  std::array<ShapePart, Reflection::kMostLobes> parts;
+  std::array<ShapePart, Reflection::kFewLobes> parts;
   const int count = rowShape(lobe, back ? flipZ(o) : o, back && lobe.interface,
-                             std::span(parts).first(lobes.size()));
+                             std::span(parts).first(std::min(lobes.size(), parts.size())));
   float sum = 0;
   for (int i = 0; i < count; ++i) sum += parts[static_cast<size_t>(i)].share;
   for (int i = 0; i < count; ++i) {

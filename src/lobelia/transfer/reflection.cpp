@@ -27,7 +27,14 @@ ActiveLobes activeLobes(const Bsdf& bsdf, Vec3f wo) {
   return active;
 }
 
-// Wide ones last. By insertion: there are four at most.
+// Is it one anisotropic lobe alone?
+bool isStreak(const ActiveLobes& active) {
+  if (active.count != 1) return false;
+  const Lobe& lobe = *active.lobes[0];
+  return lobe.type != LobeType::phong && lobe.alphaX != lobe.alphaY;
+}
+
+// Wide ones last. By insertion: there are few.
 void sortByWidth(Reflection* out) {
   for (size_t i = 1; i < static_cast<size_t>(out->count); ++i)
     for (size_t j = i; j > 0 && out->lobes[j - 1].kappa < out->lobes[j].kappa; --j)
@@ -43,19 +50,20 @@ void setSum(const LobeMoments& all, Reflection* out) {
 // Shares the places for lobes out among the Bsdf's; the last place is for all that are left.
 void addGlossy(const Bsdf& glossy, Vec3f wo, Reflection* out) {
   const ActiveLobes active = activeLobes(glossy, wo);
+  const int most = isStreak(active) ? Reflection::kMostLobes : Reflection::kFewLobes;
   LobeMoments all, rest;
   for (int i = 0; i < active.count; ++i) {
     const Lobe& lobe = *active.lobes[static_cast<size_t>(i)];
     const LobeMoments moments = quickMoments(glossy, lobe, wo);
     all.add(moments);
-    const int left = active.count - i, room = Reflection::kMostLobes - out->count;
-    if (room == 1 && left + i > Reflection::kMostLobes) {
+    const int left = active.count - i, room = most - out->count;
+    if (room == 1 && left + i > most) {
       rest.add(moments);
     } else {
       const auto places = std::span(out->lobes).subspan(static_cast<size_t>(out->count));
-      const int most = std::max(room / left, 1);
+      const int share = std::max(room / left, 1);
       out->count +=
-          reflectedLobes(glossy, lobe, wo, moments, places.first(static_cast<size_t>(most)));
+          reflectedLobes(glossy, lobe, wo, moments, places.first(static_cast<size_t>(share)));
     }
   }
   if (luminance(rest.albedo) > 0)

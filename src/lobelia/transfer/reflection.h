@@ -20,12 +20,13 @@ struct ReflectedLobe {
 };
 
 struct Reflection {
-  static constexpr int kMostLobes = 4;
-  Rgb diffuse{};     // albedo of the diffuse lobes towards wo
-  Rgb glossy{};      // of all glossy ones: the sum of the lobes' alpha
-  Vec3f n{0, 0, 1};  // unit, on wo's side
-  Vec3f mirror{};    // unit: wo reflected about n
-  Vec3f r{};         // mean of the glossy lobes' directions, by luminance; world, length < 1
+  static constexpr int kMostLobes = 12;  // of a streak
+  static constexpr int kFewLobes = 4;    // of other materials
+  Rgb diffuse{};                         // albedo of the diffuse lobes towards wo
+  Rgb glossy{};                          // of all glossy ones: the sum of the lobes' alpha
+  Vec3f n{0, 0, 1};                      // unit, on wo's side
+  Vec3f mirror{};                        // unit: wo reflected about n
+  Vec3f r{};  // mean of the glossy lobes' directions, by luminance; world, length < 1
   int count = 0;
   std::array<ReflectedLobe, kMostLobes> lobes;  // wide ones last
 };

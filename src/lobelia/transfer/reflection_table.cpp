@@ -27,7 +27,7 @@ constexpr size_t kNodes = 128;
 constexpr uint32_t kMomentPoints = 4096, kFitPoints = 1024;
 constexpr int kFirstIterations = 60, kIterations = 15;
 constexpr float kSteep = 0.7f;  // cosine up to which a lobe is about as wide as long
-constexpr size_t kMost = Reflection::kMostLobes;
+constexpr size_t kMost = Reflection::kFewLobes;
 
 // At both ends there is a limit, not a value.
 float cosineAt(size_t node) {
