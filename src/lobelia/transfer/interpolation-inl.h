@@ -48,6 +48,14 @@ LOBELIA_HD F resultantBetween(const LobeTotals<F>& totals, F moment, F magnifica
   return min(mean, moment / totals.energy + mean * magnification2 * apart);
 }
 
+// Width of what is visible between parts (VisiblePart::width): parts on different sides of what is
+// in the way make a wider lobe; for narrow ones 1 - |r| is 1 / kappa. widths, axes: sums by energy
+// of widths and of axes, of the latter the length; kappa: of the unoccluded lobe.
+template <class F>
+LOBELIA_HD F widthBetween(F widths, F axes, F energy, F kappa) {
+  return widths / energy + kappa * max(F(0.f), F(1.f) - axes / energy);
+}
+
 // kappaOfResultant() with its table of corrections, of `cells` cells and one more.
 template <class F>
 LOBELIA_HD F kappaByTable(F resultant, const float* corrections, float cells, float most) {

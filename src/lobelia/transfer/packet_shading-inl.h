@@ -157,8 +157,7 @@ HWY_INLINE VisibleBetween visibleBetween(const transfer::VisibleRow* rows, const
   const Vf apart = lengthOf(axes), energy = shares.w;
   const Mf any = (energy > zero) & (apart > zero);
   out.axis = selectVector(any, axes * (Vf(1.f) / apart), out.own);
-  out.width =
-      select(any, widths / energy + kappaOf(size) * max(zero, Vf(1.f) - apart / energy), Vf(1.f));
+  out.width = select(any, widthBetween(widths, apart, energy, kappaOf(size)), Vf(1.f));
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "lobelia/transfer/visible_part.h"
 
 #include "lobelia/lobes/spherical_gaussian.h"
+#include "lobelia/transfer/interpolation-inl.h"
 #include "lobelia/transfer/resultant.h"
 
 namespace lobelia::transfer {
@@ -37,9 +38,7 @@ VisiblePart VisibleSum::part() const {
   const float size = length(axes_);
   if (energy_ <= 0 || size <= 0) return part;
   part.axis = axes_ / size;
-  // Parts on different sides of what is in the way make a wider lobe: for narrow ones 1 - |r| is
-  // 1 / kappa.
-  part.width = widths_ / energy_ + kappa_ * std::max(0.f, 1 - size / energy_);
+  part.width = core::widthBetween(widths_, size, energy_, kappa_);
   return part;
 }
 
